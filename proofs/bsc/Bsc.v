@@ -3,11 +3,8 @@
         bsc_no     the answer "no": at every root of Y in [0, 1] some G is negative
         bsc_yes    the answer "yes": at some root of Y in [0, 1] every G is positive *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
-From Errbound Require Import Sign Bernstein.
+From Errbound Require Import Libraries Sign Bernstein.
 From Errbound Require Export BscSigns.
-Import ListNotations.
-Open Scope R_scope.
 
 Section Answers.
 

@@ -1,10 +1,7 @@
 (** The code of Bernstein sign classification (include/errbound/bsc.hpp), in its order, over every scalar
     (Bernstein.v). Y is a cubic and each G a quartic, as lists of scaled coefficients. *)
 
-From Coq Require Import Reals ZArith List Bool.
-From Errbound Require Import Sign Bernstein.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import Libraries Sign Bernstein.
 
 (** ** Signs (include/errbound/sign.hpp) *)
 

@@ -7,10 +7,7 @@
         bsc_exact_face, bsc_exact_edges   bsc_exact.cpp returns `collides` exactly if the features do, given
                            doubles, common_factor and real_roots as in UnboundedIntegers.v *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
-From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import Libraries RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
 
 Section Exact.
 

@@ -6,8 +6,7 @@
         extremum_not_at_start    "the sign of the extreme point is that of T(0)": wrong
         decomposition_zero       "sign G = - sign M sign R": wrong if M vanishes with Y *)
 
-From Coq Require Import Reals Lra Psatz.
-Open Scope R_scope.
+From Errbound Require Import Libraries.
 
 (** Y' is negative and Y positive at both ends, so the classification finds no extremum and no root. But Y has two
     roots. Its inflection is at 1 - 4e. *)

@@ -9,9 +9,8 @@
         face_coplanar, edges_coplanar        Y = 0 throughout: contact at t = 0, or vertex/edge contact
         query_...       the same for either query *)
 
-From Coq Require Import Reals Lra Psatz List FunctionalExtensionality.
-Import ListNotations.
-Open Scope R_scope.
+From Coq Require Import FunctionalExtensionality.
+From Errbound Require Import Libraries.
 
 (** ** Space *)
 

@@ -7,10 +7,7 @@
         margins_face_apart, margins_edges_apart   consequences of control values beyond the margins, on the step or
                                                   a subinterval *)
 
-From Coq Require Import Reals Lra Psatz List.
-From Errbound Require Import Contact Distance Subdivision Separation FirstContact.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import Libraries Contact Distance Subdivision Separation FirstContact.
 
 (** ** At a time *)
 

@@ -8,10 +8,7 @@
                        |value - exact| <= error eps unit + underflow eta W^(degree - 1)
         count_height   no count exceeds 2^height, a number that depends on the expression's shape *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz.
-From Flocq Require Import Core.
-From Errbound Require Import Format.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries Format.
 
 (** Inputs come with M, a bound on their computed sizes; constants are whole. Converted is a converted difference of
     longer numbers (RoundedAxes.v, converted_difference_near). *)

@@ -23,11 +23,7 @@
         after_near                the rounded position at t_max is a double between both ends of the step, off by at
                                   most the computed error; to nearest *)
 
-From Coq Require Import Reals ZArith List Lia Lra Bool.
-From Flocq Require Import Core.
-From Errbound Require Import Format Contact Decisions SeparatingAxis RoundedAxes.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries Format Contact Decisions SeparatingAxis RoundedAxes.
 
 #[local] Instance float_precision : Prec_gt_0 24 := eq_refl.
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
@@ -78,35 +74,14 @@ Definition apart : extents -> extents -> bool := apart_along search_axes.
 
 (** ** Elements *)
 
-Lemma fold_min_below (value : moving -> R) others m :
-  let r := fold_left (fun m q => Rmin m (value q)) others m in
-  r <= m /\ forall q, In q others -> r <= value q.
-Proof.
-  revert m. induction others as [| q l IH]; intros m; cbn zeta; cbn [fold_left]; [split; [lra | easy] |].
-  destruct (IH (Rmin m (value q))) as (A & B).
-  pose proof (Rmin_l m (value q)). pose proof (Rmin_r m (value q)).
-  split; [lra |]. intros r [<- | I]; [lra | now apply B].
-Qed.
-Lemma fold_max_above (value : moving -> R) others m :
-  let r := fold_left (fun m q => Rmax m (value q)) others m in
-  m <= r /\ forall q, In q others -> value q <= r.
-Proof.
-  revert m. induction others as [| q l IH]; intros m; cbn zeta; cbn [fold_left]; [split; [lra | easy] |].
-  destruct (IH (Rmax m (value q))) as (A & B).
-  pose proof (Rmax_l m (value q)). pose proof (Rmax_r m (value q)).
-  split; [lra |]. intros r [<- | I]; [lra | now apply B].
-Qed.
 (** Extents are at least as wide as those of a single vertex. *)
 Lemma wider_than_vertex first others a e q : In q (first :: others) ->
   least (of_element first others a e) <= single (computed a e q - snd a) /\
   single (computed a e q + snd a) <= most (of_element first others a e).
 Proof.
-  intros I. cbn [of_element least most].
-  destruct (fold_min_below (computed a e) others (computed a e first)) as (A & B).
-  destruct (fold_max_above (computed a e) others (computed a e first)) as (C & D).
-  split; apply single_le; auto.
-  - destruct I as [<- | I]; [lra | specialize (B q I); lra].
-  - destruct I as [<- | I]; [lra | specialize (D q I); lra].
+  intros I. cbn [of_element least most]. split; apply single_le, Rplus_le_compat_r; revert q I.
+  - beyond_all (fun r q => r <= computed a e q).
+  - beyond_all (fun r q => computed a e q <= r).
 Qed.
 
 Lemma computed_float a e q : In a coordinates_in_float -> float (computed (a, 0) e q).
@@ -148,25 +123,14 @@ Proof.
   pose proof (rounded_near direction _ _ _ Py Cy S Hy) as (Ly & Ey).
   pose proof (rounded_near direction _ _ _ Pz Cz S Hz) as (Lz & Ez).
   unfold rounded_point, scaled, dot, minus. set (c := middle f) in *. set (s := scale f) in *. clearbody c s.
-  destruct I as [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]; cbn [fst snd x y z].
-  - split; [now apply sum_size |].
-    match goal with |- Rabs (_ - ?r) <= _ => replace r with ((x p - x c) * s + (y p - y c) * s) by ring end.
-    now apply sum_in_float.
-  - split; [now apply difference_size |].
-    match goal with |- Rabs (_ - ?r) <= _ => replace r with ((x p - x c) * s - (y p - y c) * s) by ring end.
-    now apply difference_in_float.
-  - split; [now apply sum_size |].
-    match goal with |- Rabs (_ - ?r) <= _ => replace r with ((y p - y c) * s + (z p - z c) * s) by ring end.
-    now apply sum_in_float.
-  - split; [now apply difference_size |].
-    match goal with |- Rabs (_ - ?r) <= _ => replace r with ((y p - y c) * s - (z p - z c) * s) by ring end.
-    now apply difference_in_float.
-  - split; [now apply sum_size |].
-    match goal with |- Rabs (_ - ?r) <= _ => replace r with ((z p - z c) * s + (x p - x c) * s) by ring end.
-    now apply sum_in_float.
-  - split; [now apply difference_size |].
-    match goal with |- Rabs (_ - ?r) <= _ => replace r with ((z p - z c) * s - (x p - x c) * s) by ring end.
-    now apply difference_in_float.
+  destruct I as [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]; cbn [fst snd x y z];
+    (split; [now apply sum_size || now apply difference_size |]);
+    match goal with
+    | A : Rabs (?a - ?r) <= _, B : Rabs (?b - ?t) <= _ |- Rabs (_ (?a + ?b) - ?v) <= _ =>
+        replace v with (r + t) by ring; now apply sum_in_float
+    | A : Rabs (?a - ?r) <= _, B : Rabs (?b - ?t) <= _ |- Rabs (_ (?a - ?b) - ?v) <= _ =>
+        replace v with (r - t) by ring; now apply difference_in_float
+    end.
 Qed.
 
 (** Moved outwards and rounded, the computed projection is still beyond the exact one: 7 - 2.01 > 4.05. *)
@@ -266,6 +230,8 @@ Lemma apart_symmetric axes E F : apart_along axes E F = true -> apart_along axes
 Proof.
   rewrite !apart_axis. intros (a & I & H). exists a. split; auto. destruct H as [H | H]; auto.
 Qed.
+Lemma either_apart axes E F : apart_along axes E F = true \/ apart_along axes F E = true -> apart_along axes E F = true.
+Proof. intros [A | A]; [easy | now apply apart_symmetric]. Qed.
 Lemma group_apart_along axes G H E F : holds G E -> holds H F ->
   apart_along axes G H = true -> apart_along axes E F = true.
 Proof.
@@ -279,11 +245,13 @@ Proof. apply group_apart_along. Qed.
 (** ** Pairs *)
 
 (** Two elements are apart if all vertices of one come before all of the other along an axis. *)
-Lemma apart_before p l r m : apart (of_element p l) (of_element r m) = true ->
-  (forall q, In q (p :: l) -> in_frame q) -> (forall t, In t (r :: m) -> in_frame t) ->
+Lemma apart_before p l r m G H : holds G (of_element p l) -> holds H (of_element r m) ->
+  apart G H = true \/ apart H G = true -> Forall in_frame (p :: l) -> Forall in_frame (r :: m) ->
   exists n, forall q t, In q (p :: l) -> In t (r :: m) -> before n q t.
 Proof.
-  unfold apart. rewrite apart_axis. intros (a & I & H) P R'. destruct H as [H | H].
+  rewrite !Forall_forall. intros Gh Hh A P R'.
+  apply (either_apart search_axes), (group_apart_along _ G H _ _ Gh Hh), apart_axis in A.
+  destruct A as (a & I & A). destruct A as [A | A].
   - exists (minus origin (snd (fst a))). intros q t Q T. apply before_opposite, before_of. intros e.
     now apply (extents_tell a e r m p l t q); auto.
   - exists (snd (fst a)). intros q t Q T. apply before_of. intros e.
@@ -294,21 +262,15 @@ Theorem apart_face_separate v f0 f1 f2 G H : in_frame v -> in_frame f0 -> in_fra
   holds G (of_element v []) -> holds H (of_element f0 [f1; f2]) -> apart G H = true \/ apart H G = true ->
   ~ vertex_face_collides v f0 f1 f2.
 Proof.
-  intros V F0 F1 F2 Gv Hf A. assert (B : apart G H = true) by (destruct A; [easy | now apply apart_symmetric]).
-  apply (group_extents_apart G H _ _ Gv Hf), apart_before in B.
-  - destruct B as (n & B). apply (face_separated n); apply B; simpl; auto.
-  - intros q [<- | []]. exact V.
-  - intros q [<- | [<- | [<- | []]]]; auto.
+  intros V F0 F1 F2 Gv Hf A. destruct (apart_before _ _ _ _ _ _ Gv Hf A) as (n & B); auto.
+  apply (face_separated n); apply B; simpl; auto.
 Qed.
 Theorem apart_edges_separate a0 a1 b0 b1 G H : in_frame a0 -> in_frame a1 -> in_frame b0 -> in_frame b1 ->
   holds G (of_element a0 [a1]) -> holds H (of_element b0 [b1]) -> apart G H = true \/ apart H G = true ->
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
-  intros A0 A1 B0 B1 Ga Hb A. assert (B : apart G H = true) by (destruct A; [easy | now apply apart_symmetric]).
-  apply (group_extents_apart G H _ _ Ga Hb), apart_before in B.
-  - destruct B as (n & B). apply (edges_separated n); apply B; simpl; auto.
-  - intros q [<- | [<- | []]]; auto.
-  - intros q [<- | [<- | []]]; auto.
+  intros A0 A1 B0 B1 Ga Hb A. destruct (apart_before _ _ _ _ _ _ Ga Hb A) as (n & B); auto.
+  apply (edges_separated n); apply B; simpl; auto.
 Qed.
 
 (** ** Until a time t_max < 1 *)
@@ -490,11 +452,12 @@ Proof.
 Qed.
 
 (** Vertices of the first element come before those of the second along an axis. *)
-Lemma until_before p l r m G H : holds G (of_element p l) -> holds H (of_element r m) -> apart_until G H = true ->
-  (forall s, In s (p :: l) -> in_frame s) -> (forall s, In s (r :: m) -> in_frame s) ->
+Lemma until_before p l r m G H : holds G (of_element p l) -> holds H (of_element r m) ->
+  apart_until G H = true \/ apart_until H G = true -> Forall in_frame (p :: l) -> Forall in_frame (r :: m) ->
   exists n, forall q t s s', In s (p :: l) -> In s' (r :: m) -> off_by q s -> off_by t s' -> before n q t.
 Proof.
-  intros Gh Hh A P R'. apply (group_apart_along _ G H _ _ Gh Hh) in A. apply apart_axis in A.
+  rewrite !Forall_forall. intros Gh Hh A P R'.
+  apply either_apart, (group_apart_along _ G H _ _ Gh Hh), apart_axis in A.
   destruct A as (a & I & A). destruct (Rlt_or_le 8 margin_in_double) as [U | U].
   { pose proof (largest_margin_extents_hold_0 a false p l U I (P p (or_introl eq_refl))).
     pose proof (largest_margin_extents_hold_0 a false r m U I (R' r (or_introl eq_refl))).
@@ -534,13 +497,10 @@ Theorem until_face_separate t v f0 f1 f2 v' f0' f1' f2' G H :
   ~ exists s, 0 <= s <= t /\ in_triangle (place v s) (place f0 s) (place f1 s) (place f2 s).
 Proof.
   intros (V & Ov) (F0 & O0) (F1 & O1) (F2 & O2) Gv Hf A (s & T & C).
-  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]). clear A.
-  apply (until_before v' [] f0' [f1'; f2'] G H Gv Hf) in B.
-  - destruct B as (n & B). destruct (place_until t s T) as (r & R1 & P). rewrite !P in C.
-    apply (face_separated n (until t v) (until t f0) (until t f1) (until t f2));
-      [apply (B _ _ v' f0') | apply (B _ _ v' f1') | apply (B _ _ v' f2') | now exists r]; simpl; auto.
-  - intros q [<- | []]. exact V.
-  - intros q [<- | [<- | [<- | []]]]; auto.
+  destruct (until_before _ _ _ _ G H Gv Hf A) as (n & B); auto.
+  destruct (place_until t s T) as (r & R1 & P). rewrite !P in C.
+  apply (face_separated n (until t v) (until t f0) (until t f1) (until t f2));
+    [apply (B _ _ v' f0') | apply (B _ _ v' f1') | apply (B _ _ v' f2') | now exists r]; simpl; auto.
 Qed.
 Theorem until_edges_separate t a0 a1 b0 b1 a0' a1' b0' b1' G H :
   stored_until t a0 a0' -> stored_until t a1 a1' -> stored_until t b0 b0' -> stored_until t b1 b1' ->
@@ -549,14 +509,11 @@ Theorem until_edges_separate t a0 a1 b0 b1 a0' a1' b0' b1' G H :
   ~ exists s, 0 <= s <= t /\ segments_meet (place a0 s) (place a1 s) (place b0 s) (place b1 s).
 Proof.
   intros (A0 & O0) (A1 & O1) (B0 & O2) (B1 & O3) Ga Hb A (s & T & C).
-  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]). clear A.
-  apply (until_before a0' [a1'] b0' [b1'] G H Ga Hb) in B.
-  - destruct B as (n & B). destruct (place_until t s T) as (r & R1 & P). rewrite !P in C.
-    apply (edges_separated n (until t a0) (until t a1) (until t b0) (until t b1));
-      [apply (B _ _ a0' b0') | apply (B _ _ a0' b1') | apply (B _ _ a1' b0') | apply (B _ _ a1' b1') | now exists r];
-      simpl; auto.
-  - intros q [<- | [<- | []]]; auto.
-  - intros q [<- | [<- | []]]; auto.
+  destruct (until_before _ _ _ _ G H Ga Hb A) as (n & B); auto.
+  destruct (place_until t s T) as (r & R1 & P). rewrite !P in C.
+  apply (edges_separated n (until t a0) (until t a1) (until t b0) (until t b1));
+    [apply (B _ _ a0' b0') | apply (B _ _ a0' b1') | apply (B _ _ a1' b0') | apply (B _ _ a1' b1') | now exists r];
+    simpl; auto.
 Qed.
 
 (** A way that ends near the fraction s of the stored one: short_way with spare. Errors of its ends are within d. *)
@@ -564,7 +521,7 @@ Definition shorter (s : R) (w stored : moving) : Prop := in_frame stored /\
   off_by (Moving (start w) (finish stored)) stored /\ exists q, off_by q stored /\ finish w = place q s.
 
 Lemma shorter_before s p l r m G H : 0 <= s <= 1 -> holds G (of_element p l) -> holds H (of_element r m) ->
-  apart_until G H = true -> (forall c, In c (p :: l) -> in_frame c) -> (forall c, In c (r :: m) -> in_frame c) ->
+  apart_until G H = true \/ apart_until H G = true -> Forall in_frame (p :: l) -> Forall in_frame (r :: m) ->
   exists n, forall w v c c', In c (p :: l) -> In c' (r :: m) -> shorter s w c -> shorter s v c' -> before n w v.
 Proof.
   intros S Gh Hh A P R'. destruct (until_before p l r m G H Gh Hh A P R') as (n & B). exists n.
@@ -583,26 +540,19 @@ Theorem shorter_face_separate s v f0 f1 f2 v' f0' f1' f2' G H : 0 <= s <= 1 ->
   holds G (of_element v' []) -> holds H (of_element f0' [f1'; f2']) ->
   apart_until G H = true \/ apart_until H G = true -> ~ vertex_face_collides v f0 f1 f2.
 Proof.
-  intros S V F0 F1 F2 Gv Hf A.
-  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
-  apply (shorter_before s v' [] f0' [f1'; f2'] G H S Gv Hf) in B.
-  - destruct B as (n & B). apply (face_separated n); [apply (B _ _ v' f0') | apply (B _ _ v' f1') |
-      apply (B _ _ v' f2')]; simpl; auto.
-  - intros q [<- | []]. apply V.
-  - intros q [<- | [<- | [<- | []]]]; [apply F0 | apply F1 | apply F2].
+  intros S V F0 F1 F2 Gv Hf A. destruct (shorter_before s _ _ _ _ G H S Gv Hf A) as (n & B).
+  1, 2: destruct V, F0, F1, F2; auto.
+  apply (face_separated n); [apply (B _ _ v' f0') | apply (B _ _ v' f1') | apply (B _ _ v' f2')]; simpl; auto.
 Qed.
 Theorem shorter_edges_separate s a0 a1 b0 b1 a0' a1' b0' b1' G H : 0 <= s <= 1 ->
   shorter s a0 a0' -> shorter s a1 a1' -> shorter s b0 b0' -> shorter s b1 b1' ->
   holds G (of_element a0' [a1']) -> holds H (of_element b0' [b1']) ->
   apart_until G H = true \/ apart_until H G = true -> ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
-  intros S A0 A1 B0 B1 Ga Hb A.
-  assert (B : apart_until G H = true) by (destruct A; [easy | now apply apart_symmetric]).
-  apply (shorter_before s a0' [a1'] b0' [b1'] G H S Ga Hb) in B.
-  - destruct B as (n & B). apply (edges_separated n); [apply (B _ _ a0' b0') | apply (B _ _ a0' b1') |
-      apply (B _ _ a1' b0') | apply (B _ _ a1' b1')]; simpl; auto.
-  - intros q [<- | [<- | []]]; [apply A0 | apply A1].
-  - intros q [<- | [<- | []]]; [apply B0 | apply B1].
+  intros S A0 A1 B0 B1 Ga Hb A. destruct (shorter_before s _ _ _ _ G H S Ga Hb A) as (n & B).
+  1, 2: destruct A0, A1, B0, B1; auto.
+  apply (edges_separated n); [apply (B _ _ a0' b0') | apply (B _ _ a0' b1') | apply (B _ _ a1' b0') |
+    apply (B _ _ a1' b1')]; simpl; auto.
 Qed.
 
 (** swept_boxes::widen of ccd/step/swept_boxes.hpp: boxes of stored positions in doubles, widened by d. One step up
@@ -682,13 +632,7 @@ Definition after_error (t r s : R) : R := fl (fl (bpow radix2 (-50) *
 Lemma fl_error : rounding_error 53 (-1074) nearest u (eta / 2).
 Proof. exact (rounding_error_nearest 53 (-1074) ltac:(lia)). Qed.
 Lemma fl_near r : Rabs (fl r - r) <= u * Rabs r + eta / 2.
-Proof.
-  pose proof (eta_positive (-1074)) as Q.
-  assert (0 <= u * Rabs r) by (apply Rmult_le_pos; [apply bpow_ge_0 | apply Rabs_pos]).
-  destruct (Rlt_or_le (Rabs r) (smallest_normal 53 (-1074))) as [S | S].
-  - pose proof (error_absolute _ _ _ _ _ fl_error r S). lra.
-  - pose proof (error_relative _ _ _ _ _ fl_error r S). lra.
-Qed.
+Proof. apply (error_any _ _ _ _ _ fl_error). Qed.
 Lemma u_tiny : 0 < u <= / 1000000000.
 Proof. split; [apply bpow_gt_0 |]. apply Rle_trans with (bpow radix2 (-30)); [apply bpow_le; lia | simpl; lra]. Qed.
 Lemma fl_lower r : 0 <= r -> r * (1 - / 1000000000) - eta / 2 <= fl r.

@@ -10,11 +10,7 @@
                                   differs by at most eps of itself or by eta
         swept_boxes_touch         rounded boxes that touch without a common end touch before rounding *)
 
-From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
-From Flocq Require Import Core.
-From Errbound Require Import Format Contact Decisions SeparatingAxis.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries Format Contact Decisions SeparatingAxis.
 
 #[local] Instance float_precision : Prec_gt_0 24 := eq_refl.
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
@@ -86,21 +82,9 @@ Lemma single_number r : float (single r).
 Proof. apply rnd_number; auto with typeclass_instances. Qed.
 (** The rounding error of any number: relative, or absolute after an underflow. *)
 Lemma double_near r : Rabs (double r - r) <= Format.eps 53 * Rabs r + eta (-1074).
-Proof.
-  pose proof (bpow_gt_0 radix2 (-1074)) as Q. fold (eta (-1074)) in Q.
-  assert (0 <= Format.eps 53 * Rabs r) by (apply Rmult_le_pos; [apply bpow_ge_0 | apply Rabs_pos]).
-  destruct (Rlt_or_le (Rabs r) (smallest_normal 53 (-1074))) as [S | S].
-  - pose proof (error_absolute _ _ _ _ _ double_error r S). lra.
-  - pose proof (error_relative _ _ _ _ _ double_error r S). lra.
-Qed.
+Proof. apply (error_any _ _ _ _ _ double_error). Qed.
 Lemma single_near r : Rabs (single r - r) <= eps * Rabs r + eta (-149).
-Proof.
-  pose proof (bpow_gt_0 radix2 (-149)) as Q. fold (eta (-149)) in Q.
-  assert (0 <= eps * Rabs r) by (apply Rmult_le_pos; [apply bpow_ge_0 | apply Rabs_pos]).
-  destruct (Rlt_or_le (Rabs r) (smallest_normal 24 (-149))) as [S | S].
-  - pose proof (error_absolute _ _ _ _ _ single_error r S). lra.
-  - pose proof (error_relative _ _ _ _ _ single_error r S). lra.
-Qed.
+Proof. apply (error_any _ _ _ _ _ single_error). Qed.
 
 Theorem rounded_monotone c s r t : 0 <= s -> r <= t -> rounded c s r <= rounded c s t.
 Proof.
@@ -416,46 +400,23 @@ Definition sweep (least : R -> R -> R) (coordinate : point -> R) (first : moving
 Notation low coordinate first others := (sweep Rmin coordinate first others).
 Notation high coordinate first others := (sweep Rmax coordinate first others).
 
-Lemma fold_min coordinate others m :
-  let r := fold_left (fun m q => Rmin (Rmin m (coordinate (start q))) (coordinate (finish q))) others m in
-  r <= m /\ forall q, In q others -> r <= coordinate (start q) /\ r <= coordinate (finish q).
+(** A fold is beyond its start and all members if each step is beyond its member and what came before. *)
+Lemma fold_beyond {A} (f : R -> A -> R) (beyond : R -> A -> Prop) first others m :
+  (forall m q, beyond (f m q) q) -> (forall m q r, beyond m r -> beyond (f m q) r) -> beyond m first ->
+  forall q, In q (first :: others) -> beyond (fold_left f others m) q.
 Proof.
-  revert m. induction others as [| q l IH]; intros m; cbn zeta; cbn [fold_left]; [split; [lra | easy] |].
-  destruct (IH (Rmin (Rmin m (coordinate (start q))) (coordinate (finish q)))) as (A & B).
-  pose proof (Rmin_l (Rmin m (coordinate (start q))) (coordinate (finish q))).
-  pose proof (Rmin_r (Rmin m (coordinate (start q))) (coordinate (finish q))).
-  pose proof (Rmin_l m (coordinate (start q))). pose proof (Rmin_r m (coordinate (start q))).
-  split; [lra |]. intros r [<- | I]; [lra | now apply B].
+  intros Own Kept. revert first m. induction others as [| r l IH]; intros first m M q; cbn [fold_left].
+  - now intros [<- | []].
+  - intros [<- | I]; [apply (IH first); [now apply Kept | now left] | now apply (IH r); [apply Own |]].
 Qed.
-Lemma fold_max coordinate others m :
-  let r := fold_left (fun m q => Rmax (Rmax m (coordinate (start q))) (coordinate (finish q))) others m in
-  m <= r /\ forall q, In q others -> coordinate (start q) <= r /\ coordinate (finish q) <= r.
-Proof.
-  revert m. induction others as [| q l IH]; intros m; cbn zeta; cbn [fold_left]; [split; [lra | easy] |].
-  destruct (IH (Rmax (Rmax m (coordinate (start q))) (coordinate (finish q)))) as (A & B).
-  pose proof (Rmax_l (Rmax m (coordinate (start q))) (coordinate (finish q))).
-  pose proof (Rmax_r (Rmax m (coordinate (start q))) (coordinate (finish q))).
-  pose proof (Rmax_l m (coordinate (start q))). pose proof (Rmax_r m (coordinate (start q))).
-  split; [lra |]. intros r [<- | I]; [lra | now apply B].
-Qed.
+Ltac beyond_all property := unfold sweep; apply (fold_beyond _ property); intros; unfold Rmin, Rmax in *;
+  repeat destruct Rle_dec; lra.
 Lemma low_below coordinate first others q : In q (first :: others) ->
   low coordinate first others <= coordinate (start q) /\ low coordinate first others <= coordinate (finish q).
-Proof.
-  destruct (fold_min coordinate others (Rmin (coordinate (start first)) (coordinate (finish first)))) as (A
-    & B).
-  pose proof (Rmin_l (coordinate (start first)) (coordinate (finish first))).
-  pose proof (Rmin_r (coordinate (start first)) (coordinate (finish first))).
-  intros [<- | I]; [unfold sweep; lra | now apply B].
-Qed.
+Proof. beyond_all (fun r q => r <= coordinate (start q) /\ r <= coordinate (finish q)). Qed.
 Lemma high_above coordinate first others q : In q (first :: others) ->
   coordinate (start q) <= high coordinate first others /\ coordinate (finish q) <= high coordinate first others.
-Proof.
-  destruct (fold_max coordinate others (Rmax (coordinate (start first)) (coordinate (finish first)))) as (A
-    & B).
-  pose proof (Rmax_l (coordinate (start first)) (coordinate (finish first))).
-  pose proof (Rmax_r (coordinate (start first)) (coordinate (finish first))).
-  intros [<- | I]; [unfold sweep; lra | now apply B].
-Qed.
+Proof. beyond_all (fun r q => coordinate (start q) <= r /\ coordinate (finish q) <= r). Qed.
 
 Section Boxes.
 

@@ -7,10 +7,8 @@
         semi_static_sign_certain    the certain sign of the code is right
         semi_static_overflow_uncertain   also with a largest number and any overflow *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
-From Flocq Require Import Core.
-From Errbound Require Import Format Sign StaticFilter.
-Open Scope R_scope.
+From Coq Require Import Classical_Prop.
+From Errbound Require Import FloatLibraries Format Sign StaticFilter.
 
 Section SemiStatic.
 

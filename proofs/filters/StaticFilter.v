@@ -9,10 +9,9 @@
         size_covers_value     |value| <= size
         overflow_uncertain    also with a largest number: after an overflow no sign is certain *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
-From Flocq Require Import Core Plus_error.
-From Errbound Require Import Format Sign.
-Open Scope R_scope.
+From Coq Require Import Classical_Prop.
+From Flocq Require Import Plus_error.
+From Errbound Require Import FloatLibraries Format Sign.
 
 Inductive expression :=
 | Coordinate (c : R)
@@ -181,13 +180,7 @@ Qed.
 (** The error in units of the result. *)
 Lemma sum_error_of_result x y :
   number x -> number y -> Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
-Proof.
-  intros X Y. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [C | C].
-  - rewrite (sum_exact_below p emin nearest x y X Y C) at 1.
-    replace (x + y - (x + y)) with 0 by ring. rewrite Rabs_R0.
-    apply Rmult_le_pos; [generalize u_small; lra | apply Rabs_pos].
-  - now apply nearest_relative_to_result.
-Qed.
+Proof. apply (sum_relative_to_result p emin). Qed.
 Lemma sum_upper x y : number x -> number y -> 0 <= x + y -> x + y <= (1 + u) * fl (x + y).
 Proof.
   intros X Y P. generalize (sum_error_of_result x y X Y). intros H.

@@ -9,9 +9,8 @@
         eta = 2^emin      the smallest positive number
         smallest_normal = 2^(emin+p-1); its ulp, and that of all smaller numbers, is eta *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
-From Flocq Require Import Core Relative Plus_error Mult_error.
-Open Scope R_scope.
+From Flocq Require Import Relative Plus_error Mult_error.
+From Errbound Require Import FloatLibraries.
 
 (** (1 + e)^k <= 1 + ke + (ke)^2 for ke <= 1. *)
 Lemma power_quadratic e n : 0 <= e -> INR n * e <= 1 ->
@@ -180,6 +179,14 @@ Record rounding_error (r h : R) : Prop := {
   error_r_1 : r < 1;
   error_h : 0 <= h <= eta
 }.
+
+(** For any number, the sum of both errors is a bound. *)
+Lemma error_any r h : rounding_error r h -> forall x, Rabs (rnd x - x) <= r * Rabs x + h.
+Proof.
+  intros E x. generalize (error_r r h E) (error_h r h E) (Rabs_pos x). intros.
+  assert (0 <= r * Rabs x) by (apply Rmult_le_pos; lra). destruct (Rlt_or_le (Rabs x) smallest_normal) as [S | S];
+    [generalize (error_absolute r h E x S) | generalize (error_relative r h E x S)]; lra.
+Qed.
 
 Lemma rounding_error_any : (2 <= p)%Z -> rounding_error eps eta.
 Proof.
@@ -571,6 +578,14 @@ Proof.
   intros H. replace u with (/ 2 * bpow radix2 (- p + 1)).
   - apply relative_error_N_FLT_round; auto.
   - rewrite bpow_plus. change (bpow radix2 1) with 2. unfold u. field.
+Qed.
+
+Lemma sum_relative_to_result x y : number x -> number y ->
+  Rabs (rnd nearest (x + y) - (x + y)) <= u * Rabs (rnd nearest (x + y)).
+Proof.
+  intros X Y. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [C | C]; [| now apply nearest_relative_to_result].
+  rewrite (sum_exact_below nearest x y X Y C) at 1. replace (x + y - (x + y)) with 0 by ring. rewrite Rabs_R0.
+  apply Rmult_le_pos; [apply bpow_ge_0 | apply Rabs_pos].
 Qed.
 
 (** The smallest positive number disappears in a sum with 1. *)

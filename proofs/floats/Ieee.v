@@ -5,11 +5,10 @@
     result is finite, nothing before overflowed, and the code computed the definitions over real numbers (Tight.v,
     ...). `nonnegative` means not below zero, but possibly infinite or NaN. *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
-From Flocq Require Import Core IEEE754.BinarySingleNaN.
-From Errbound Require Import Code.
+From Flocq Require Export IEEE754.BinarySingleNaN.
+From Errbound Require Import FloatLibraries.
+From Errbound Require Export Code.
 From Errbound Require Format.
-Open Scope R_scope.
 
 Notation finite x := (BinarySingleNaN.is_finite x = true).
 
@@ -68,12 +67,8 @@ Qed.
 Lemma minus_finite x y : finite (minus _ floats x y) ->
   finite x /\ finite y /\ B2R (minus _ floats x y) = fl (B2R x - B2R y).
 Proof.
-  intros H. assert (F : finite x /\ finite y).
-  { revert H. destruct x as [s | s | | s m e b], y as [t | t | | t n f c]; simpl; auto;
-      destruct (Bool.eqb s (negb t)); discriminate. }
-  destruct F as [X Y]. repeat split; auto.
-  generalize (Bminus_correct p emax _ _ mode_NE x y X Y). case Rlt_bool; [tauto |].
-  intros [O _]. exfalso. revert H O. simpl. destruct (Bminus mode_NE x y); discriminate.
+  replace (minus _ floats x y) with (plus _ floats x (Bopp y)) by now destruct x, y.
+  intros H. apply plus_finite in H. now rewrite is_finite_Bopp, B2R_Bopp in H.
 Qed.
 Lemma times_finite x y : finite (times _ floats x y) ->
   finite x /\ finite y /\ B2R (times _ floats x y) = fl (B2R x * B2R y).
@@ -146,17 +141,6 @@ Lemma p_emax : (p < emax)%Z.
 Proof. exact p_below. Qed.
 Lemma emin_p : (emin <= - p)%Z.
 Proof. generalize p_emax. lia. Qed.
-
-Lemma exponent_value x : finite x -> B2R x <> 0 ->
-  bpow radix2 (exponent x - 1) <= Rabs (B2R x) < bpow radix2 (exponent x).
-Proof.
-  intros X N. assert (S : is_finite_strict x = true) by now destruct x.
-  generalize (Bfrexp_correct p emax _ x S) (bpow_gt_0 radix2 (exponent x)). unfold exponent.
-  destruct (Bfrexp x) as [z e]. cbn [snd]. intros [-> H] P.
-  destruct H as [H _]; [generalize p_emax; lia |].
-  rewrite Rabs_mult, (Rabs_pos_eq (bpow radix2 e)) by lra. unfold Zminus. rewrite bpow_plus.
-  change (bpow radix2 (-(1))) with (/ 2). nra.
-Qed.
 
 Lemma integer_value n : (Z.abs n <= 8)%Z -> finite (integer _ floats n) /\ B2R (integer _ floats n) = IZR n.
 Proof.

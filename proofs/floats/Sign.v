@@ -4,9 +4,7 @@
             NaN). So
                        overflow, for which rules return such an error, gives uncertain signs *)
 
-From Coq Require Import Reals Lra Bool.
-From Flocq Require Import Core.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries.
 
 Inductive sign := negative | zero | positive | uncertain.
 

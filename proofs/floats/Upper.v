@@ -10,10 +10,8 @@
         sum_of_bounds_sound, sum_of_bounds_at_most   `sum_of_bounds` covers a sum of bounds, and is at most the
             bound with a factor for its roundings *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz.
-From Flocq Require Import Core Sterbenz.
-From Errbound Require Import Format.
-Open Scope R_scope.
+From Flocq Require Import Sterbenz.
+From Errbound Require Import FloatLibraries Format.
 
 Section Upper.
 

@@ -8,9 +8,7 @@
                                 the result stands for the sum, difference and product
         bounded_sign_certain    sign_of is right or uncertain *)
 
-From Coq Require Import ZArith Reals Lia Lra Bool.
-From Flocq Require Import Core.
-From Errbound Require Import Sign.
+From Errbound Require Import FloatLibraries Sign.
 Open Scope Z_scope.
 
 Notation pow2 := (bpow radix2).

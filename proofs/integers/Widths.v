@@ -10,9 +10,7 @@
         word_coordinates_exact, short_coordinates_exact   if word_coordinates or short_coordinates fit, they are the
                           coordinates *)
 
-From Coq Require Import Reals ZArith List Lia Lra.
-From Flocq Require Import Core.
-From Errbound Require Import Format Words.
+From Errbound Require Import FloatLibraries Format Words.
 Open Scope Z_scope.
 
 Inductive sized :=

@@ -8,11 +8,7 @@
                                    fixed_row: errors, signs, halves
         weights_right, weights_fit  inverse_binomials, which fit in 64 bits *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
-From Flocq Require Import Core.
-From Errbound Require Import Sign Bernstein VertexEdge SignVariations RootIsolation.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries Sign Bernstein VertexEdge SignVariations RootIsolation.
 
 (** ** Kioustelidis' bound *)
 

@@ -7,9 +7,7 @@
         near_widened     a coarser unit, if only the error is left
         near_sign        the sign, if the value exceeds the error *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz.
-From Flocq Require Import Core.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries.
 
 Notation two := (bpow radix2).
 

@@ -8,10 +8,7 @@
         max_variations_right     the count of uncertain signs is not below the true number if it is below 3, and both
                                  are even or both odd *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
-From Errbound Require Import Sign Bernstein.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import Libraries Sign Bernstein.
 
 (** ** The code: signs are 1, -1 and 0 *)
 

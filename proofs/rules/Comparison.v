@@ -5,8 +5,7 @@
                                B >= |v|/(1 - eps) for every number v of the expression
         tight_may_exceed_safe  it does not hold if only B = |a|: a = b = 1 is a counterexample *)
 
-From Coq Require Import Reals Lra Lia Psatz.
-Open Scope R_scope.
+From Errbound Require Import Libraries.
 
 Section Comparison.
 

@@ -5,10 +5,7 @@
         printed_product_lost    the bound of a product that underflows is wrong
         printed_sum_rounded     so is that of a sum whose bound is rounded *)
 
-From Coq Require Import Reals ZArith Lia Lra.
-From Flocq Require Import Core.
-From Errbound Require Import Format Sign Comparison.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries Format Sign Comparison.
 
 Section Printed.
 

@@ -10,11 +10,8 @@
         relative_error_sound   the returned error is a bound
         relative_sign_sound    the sign is right or uncertain *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
-From Flocq Require Import Core.
-From Errbound Require Import Format ErrorFree Upper.
+From Errbound Require Import FloatLibraries Format ErrorFree Upper.
 From Errbound Require Code.
-Open Scope R_scope.
 
 (** Two inequalities, each by the derivative of a difference that is 0 at 0. *)
 Lemma not_below_start f f' b :

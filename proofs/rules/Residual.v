@@ -9,11 +9,8 @@
         residual_error_sound   the returned error is a bound
         residual_sign_sound    the sign is right or uncertain *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
-From Flocq Require Import Core.
-From Errbound Require Import Format ErrorFree.
+From Errbound Require Import FloatLibraries Format ErrorFree.
 From Errbound Require Code Upper.
-Open Scope R_scope.
 
 Section Residual.
 
@@ -96,12 +93,7 @@ Proof.
 Qed.
 Lemma rounding_sum x y : number x -> number y ->
   Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
-Proof.
-  intros X Y. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [S | S].
-  - rewrite (sum_exact_below p emin nearest) by auto. replace (x + y - (x + y)) with 0 by ring.
-    rewrite Rabs_R0. apply Rmult_le_pos; [generalize u_8; lra | apply Rabs_pos].
-  - exact (nearest_relative_to_result p emin _ S).
-Qed.
+Proof. apply (sum_relative_to_result p emin). Qed.
 Lemma sum_lower x y : number x -> number y -> 0 <= x -> 0 <= y -> x + y <= fl (x + y) * (1 + u).
 Proof.
   intros X Y PX PY. generalize (rounding_sum x y X Y).

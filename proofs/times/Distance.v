@@ -7,10 +7,7 @@
         vertex_edge_within, face_within_union, edges_within_union   within d exactly if a condition holds
         vertex_edge_distance, face_distance, edges_distance         there is a least distance *)
 
-From Coq Require Import Reals Lra Psatz List.
-From Errbound Require Import Contact.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import Libraries Contact.
 
 (** ** Conditions *)
 

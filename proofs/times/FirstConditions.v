@@ -6,10 +6,7 @@
         vertices_near_candidate, vertex_edge_near_candidate, face_near_candidate, edges_near_candidate   for a
                                distance *)
 
-From Coq Require Import Reals Lra Psatz List.
-From Errbound Require Import Contact Distance Separation FirstContact.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import Libraries Contact Distance Separation FirstContact.
 
 (** ** Conditions: ccd/contact/condition.hpp *)
 

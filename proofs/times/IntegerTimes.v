@@ -7,11 +7,7 @@
             contact
         format_bracketed      every number has a bracket between numbers of a floating-point format *)
 
-From Coq Require Import Reals ZArith Lra List.
-From Flocq Require Import Core.
-From Errbound Require Import Subdivision Contact Separation FirstContact TimeBrackets.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries Subdivision Contact Separation FirstContact TimeBrackets.
 
 Section Doubles.
 

@@ -6,11 +6,8 @@
         separated_part       so `separated` on a subinterval of the step gives an axis as in Separation.v
         axis_length, distance_rounded, size_rounded   the operands *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List.
-From Flocq Require Import Core.
-From Errbound Require Import Contact Distance Separation Format.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries Contact Distance Separation Format.
+From Errbound Require RoundedAxes.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
 Notation fl := (rnd 53 (-1074) nearest).
@@ -24,11 +21,7 @@ Lemma fl_number x : double (fl x).
 Proof. apply rnd_number; auto with typeclass_instances. Qed.
 Lemma fl_any x : Rabs (fl x - x) <= u * Rabs x + eta.
 Proof.
-  pose proof (rounding_error_nearest 53 (-1074) ltac:(lia)) as E. pose proof (eta_positive (-1074)). pose proof u_small.
-  pose proof (Rabs_pos x). assert (0 <= u * Rabs x) by (apply Rmult_le_pos; lra).
-  destruct (Rlt_or_le (Rabs x) (smallest_normal 53 (-1074))) as [S | S].
-  - pose proof (error_absolute _ _ _ _ _ E x S). lra.
-  - pose proof (error_relative _ _ _ _ _ E x S). lra.
+  pose proof (error_any _ _ _ _ _ (rounding_error_nearest 53 (-1074) ltac:(lia)) x). pose proof (eta_positive (-1074)). lra.
 Qed.
 (** fl x for |x| <= m. *)
 Lemma fl_within x m : Rabs x <= m -> Rabs (fl x - x) <= u * m + eta /\ Rabs (fl x) <= m + u * m + eta.
@@ -231,24 +224,12 @@ Definition gap (p : tracked) (ps : list tracked) (q : tracked) (qs : list tracke
   fl (fold_left Rmin (map (at_ t) qs) (at_ t q) - fold_left Rmax (map (at_ t) ps) (at_ t p)).
 Definition part_of (low high : R) (m : tracked) : moving := Moving (place (path m) low) (place (path m) high).
 
-Lemma fold_max l m : m <= fold_left Rmax l m /\ forall x, In x l -> x <= fold_left Rmax l m.
-Proof.
-  revert m. induction l as [| c l IH]; intros m; cbn [fold_left]; [split; [lra | easy] |].
-  destruct (IH (Rmax m c)) as (A & B). pose proof (Rmax_l m c). pose proof (Rmax_r m c).
-  split; [lra |]. intros e [<- | I]; [lra | auto].
-Qed.
-Lemma fold_min l m : fold_left Rmin l m <= m /\ forall x, In x l -> fold_left Rmin l m <= x.
-Proof.
-  revert m. induction l as [| c l IH]; intros m; cbn [fold_left]; [split; [lra | easy] |].
-  destruct (IH (Rmin m c)) as (A & B). pose proof (Rmin_l m c). pose proof (Rmin_r m c).
-  split; [lra |]. intros e [<- | I]; [lra | auto].
-Qed.
 Lemma gap_of_pair p ps q qs t m n : In m (p :: ps) -> In n (q :: qs) -> gap p ps q qs t <= fl (at_ t n - at_ t m).
 Proof.
-  intros M N. unfold gap. destruct (fold_max (map (at_ t) ps) (at_ t p)) as (A & B).
-  destruct (fold_min (map (at_ t) qs) (at_ t q)) as (C & E). apply rnd_le; auto with typeclass_instances.
-  assert (at_ t m <= fold_left Rmax (map (at_ t) ps) (at_ t p)) by (destruct M as [<- | M]; [lra | now apply B, in_map]).
-  assert (fold_left Rmin (map (at_ t) qs) (at_ t q) <= at_ t n) by (destruct N as [<- | N]; [lra | now apply E, in_map]). lra.
+  intros M N. apply (in_map (at_ t)) in M, N. unfold gap. apply rnd_le; auto with typeclass_instances.
+  apply Rplus_le_compat; [| apply Ropp_le_contravar].
+  - revert N. apply (RoundedAxes.fold_beyond Rmin (fun r e => r <= e)); intros; unfold Rmin; try destruct Rle_dec; lra.
+  - revert M. apply (RoundedAxes.fold_beyond Rmax (fun r e => e <= r)); intros; unfold Rmax; try destruct Rle_dec; lra.
 Qed.
 Theorem separated_part p ps q qs low high : Forall right (p :: ps) -> Forall right (q :: qs) -> 0 <= low <= 1 -> 0 <= high <= 1 ->
   above < gap p ps q qs low -> above < gap p ps q qs high ->

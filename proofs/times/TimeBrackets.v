@@ -8,10 +8,7 @@
         linear_bracket_right, quadratic_only_right, quadratic_first_right, quadratic_second_right
                               brackets of roots of linear and quadratic forms *)
 
-From Coq Require Import Reals Lra Psatz List.
-From Errbound Require Import Contact VertexEdge Separation.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import Libraries Contact VertexEdge Separation.
 
 Section Doubles.
 

@@ -7,11 +7,7 @@
         difference_exact     differences of coordinates are exact
         y_near, time_stage_sign, error_enough   if the value exceeds error(), Y has its sign *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz List.
-From Flocq Require Import Core.
-From Errbound Require Import Format ErrorFree.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import FloatLibraries Format ErrorFree.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
 Notation fl := (rnd 53 (-1074) nearest).
@@ -31,11 +27,7 @@ Lemma fl_difference x y : double x -> double y -> Rabs (fl (x - y) - (x - y)) <=
 Proof. intros X Y. apply (fl_sum x (- y)); auto. now apply number_opp. Qed.
 Lemma fl_any x : Rabs (fl x - x) <= u * Rabs x + eta.
 Proof.
-  pose proof (rounding_error_nearest 53 (-1074) ltac:(lia)) as E. pose proof (eta_positive (-1074)). pose proof u_small.
-  pose proof (Rabs_pos x). assert (0 <= u * Rabs x) by (apply Rmult_le_pos; lra).
-  destruct (Rlt_or_le (Rabs x) (smallest_normal 53 (-1074))) as [S | S].
-  - pose proof (error_absolute _ _ _ _ _ E x S). lra.
-  - pose proof (error_relative _ _ _ _ _ E x S). lra.
+  pose proof (error_any _ _ _ _ _ (rounding_error_nearest 53 (-1074) ltac:(lia)) x). pose proof (eta_positive (-1074)). lra.
 Qed.
 
 (** |x| <= m as an interval, so that lra can add. *)

@@ -5,10 +5,7 @@
         first_bracket_right   the bracket of its result is that of the first contact
         vertices_time_right   the same for `first_vertex_vertex_contact` *)
 
-From Coq Require Import Reals Lra Psatz List Bool.
-From Errbound Require Import Sign Bernstein Contact VertexEdge Separation FirstContact TimeBrackets.
-Import ListNotations.
-Open Scope R_scope.
+From Errbound Require Import Libraries Sign Bernstein Contact VertexEdge Separation FirstContact TimeBrackets.
 
 (** ** first_root_nonpositive *)
 

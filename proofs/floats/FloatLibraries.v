@@ -1,0 +1,4 @@
+(** The same with Flocq's formats and roundings. *)
+
+From Errbound Require Export Libraries.
+From Flocq Require Export Core.
