@@ -38,8 +38,9 @@ class ordered_elements {
     const std::array<vertex_index, N>& operator[](std::size_t i) const { return elements_[i]; }
     operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
-    /// Calls sort(elements) before build() if their order is not good. Pass whole_way = false if
-    /// t_max < 1: the leaves of such a tree do not show if the order is good for the whole step.
+    /// Calls build(), and sort(elements) before it (or before another build()) if their order is
+    /// not good. Pass whole_way = false if t_max < 1: the leaves of such a tree do not show if the
+    /// order is good for the whole step.
     template <class Real, class Tree, class Sort, class Build>
     void build_tree(const Tree& tree, bool whole_way, const Sort& sort, const Build& build);
     void forget_order() { ordered_ = false; }
@@ -58,8 +59,9 @@ struct wanted_candidates {
     bool close = false;
     /// The search may omit pairs that do not meet until this time.
     double t_max = 1;
-    /// For t_max < 1: also pairs that may meet if all vertices go straight to the rounded positions
-    /// that `between` (ccd/step/advance/advancing.hpp) returns for one fraction up to t_max.
+    /// For t_max < 1: also pairs that may meet on straight ways to the rounded positions of
+    /// `between` (ccd/step/advance/advancing.hpp). All vertices have the same fraction, up to
+    /// t_max.
     bool spare = false;
     /// Only some of the close pairs; none if they cannot be found in floats.
     bool sample = false;
@@ -73,9 +75,10 @@ using resting_visitor =
     std::function<void(std::span<const face> elements, std::span<const element_pair> pairs)>;
 
 /// The search in one mesh. Keeps its working memory: 70 KB a thread, and about these numbers of
-/// bytes. Faces and edges share theirs: only the larger sum counts. With wanted_candidates::close,
-/// edges are searched in pieces: they take no more than the faces, or half of their sum if that is
-/// more. While few vertices are active, elements near them take 110 bytes more.
+/// bytes. Faces and edges share theirs: only the larger of their totals counts. With
+/// wanted_candidates::close, edges are searched in pieces, which take at most the faces' total or
+/// half of the edges' total, whichever is more. While few vertices are active, elements near them
+/// take 110 bytes more.
 ///
 ///                                    a face   an edge   a vertex
 ///     in floats                          40        44         18

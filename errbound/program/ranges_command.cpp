@@ -76,8 +76,7 @@ ranges::ranges(CLI::App& program)
                  "function_error;\n0.5 for correct rounding")
         .between(0.5, 1024.0);
     support::add(line_, "--gap", options_.gap,
-                 "Stop if the bound is within this share of the least one that bisection can "
-                 "reach")
+                 "Stop if further bisection can lower the bound by at most this share")
         .between(0.0, 1e6)
         .shows_default();
     support::add(line_, "--seconds", options_.seconds, "Limit of each bound")
@@ -100,7 +99,7 @@ ranges::ranges(CLI::App& program)
 
 void ranges::add_comparisons_and_outputs() {
     support::add(line_, "--rules", rules_,
-                 "Search for the largest error() of these bound rules, too; or of all")
+                 "Search for the largest error() of these bound rules, too; all: every rule")
         .type("R[,R...]");
     support::add(line_, "--published", published_,
                  "Compare with other bounds: lines CORE,BOUND, the core's name without commas. "

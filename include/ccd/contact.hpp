@@ -163,10 +163,10 @@ constexpr std::string_view name(contact_motion m) {
 }
 
 /// Returns the motion of the result of contact_at(query, time). Exact: if the normal velocity does
-/// not decide, the signs of Y (docs/notation.md) just before and just after the bracket do. If Y is
-/// zero throughout and a vertex meets an edge, its sides of the edge's line then decide. Features
-/// that meet inside slide in this case. Cost: one comparison if the normal velocity decides,
-/// otherwise unbounded integers.
+/// not decide, the signs of Y (docs/notation.md) just before and just after the bracket do. Y may
+/// be zero throughout. Then a vertex that meets an edge is judged by its side of the edge's line
+/// before and after; for features that meet inside, the result is `slides`. Cost: one comparison if
+/// the normal velocity decides, otherwise unbounded integers.
 template <any_query Query>
 contact_motion motion_after(const Query& query, const first_contact& contact);
 

@@ -190,8 +190,8 @@ class predicate_type {
                      list, make});
     }
     /// The sign by this stage only; `uncertain` if the stage does not decide. Without a
-    /// tracked_rule, `tracked` uses `tight`. Here two_word_integers also decides expressions that
-    /// branch, for which calls skip this stage.
+    /// tracked_rule, `tracked` uses `tight`. Here two_word_integers also decides expressions for
+    /// which calls skip this stage.
     template <class... Points>
     constexpr sign_type by(predicate_stage stage, const Points&... p) const {
         using enum predicate_stage;
@@ -247,8 +247,9 @@ class predicate_type {
 /// - exact stages, on coordinates as integers times one power of two. exact_doubles and
 ///   short_integers hold results of 53 and 127 bits; word_integers and two_word_integers hold
 ///   coordinates of 61 and 124 bits; long_integers (or the options' exact type) hold any.
-///   two_word_integers are skipped if the expression branches or its degree exceeds 6,
-///   exact_doubles if they hold only coordinates of less than 8 bits.
+///   two_word_integers are skipped if the expression branches or its degree exceeds 6.
+///   exact_doubles are skipped if they hold only coordinates of less than 8 bits, or if
+///   short_integers hold all that word_integers do.
 ///
 /// Contraction to FMA is allowed. Predicates work in constant expressions and in device code
 /// (compiled, not yet run). Filters cost 1 to 3 times the plain expression, integers 10 to

@@ -4,8 +4,9 @@
 //   const ccd::adapters::exact_narrow_phase exact(0.8, 1e-4);
 //   ipc::compute_collision_free_stepsize(mesh, before, after, min_distance, nullptr, exact);
 //
-// Decisions are exact, without tolerance or limit of iterations, and thread-safe. Coordinates,
-// min_distance >= 0 and tmax must be finite; otherwise the answer is true with `toi` 0. Cost: that
+// Decisions are exact, without tolerance or limit of iterations, and thread-safe. Coordinates
+// and min_distance >= 0 must be finite, and tmax no NaN; otherwise the answer is true with `toi` 0.
+// Cost: that
 // of time_of_impact (ccd/contact.hpp). With a distance or a gap it is that of time_within, but far
 // less if the features stay farther apart than these until tmax.
 #pragma once

@@ -40,7 +40,8 @@ narrow_answer answer_with_gap(const Query& query, const kept_gap& kept, double m
     }
     // The search goes to 1, so that the rescaled time is compared with tmax: the least of many
     // answers must not depend on their order, each with the least before as its tmax.
-    const first_time found = time_within(query, {min_distance}, std::isnan(tmax) ? tmax : 1);
+    const double end = tmax > -std::numeric_limits<double>::infinity() ? 1 : tmax;
+    const first_time found = time_within(query, {min_distance}, end);
     const double least = std::numeric_limits<double>::denorm_min();
     const double time = (std::max)(kept.rescaling * found.low, (std::min)(found.low, least));
     const bool late = found.outcome == outcome::collides && time > tmax;

@@ -86,11 +86,12 @@ rigid_motion shorter_arc(const pose& from, const pose& to);
 /// points are at their rest positions. No number is rounded.
 rigid_motion screw(const point<double>& d, const point<double>& centre, const point<double>& end);
 
-/// A turn from `from` by `angle`, in radians and of any size, about the direction `axis`, while
-/// `centre` moves to `end`. The pieces turn by at most a quarter of a turn, at equal intervals of
-/// time in [0, 1]. Their ends are rounded, and each begins exactly where the last one ended.
-/// Returns one piece without rotation if `axis` is 0, and one that fault_of reports if `angle` or
-/// `axis` is not finite. Throws std::length_error or std::bad_alloc if there are too many pieces.
+/// A turn by `angle`, in radians and of any size, about the direction `axis`, by the right-hand
+/// rule. It starts with the rotation from.q, and `centre` moves from from.p to `end`. The pieces
+/// turn by at most a quarter of a turn, at equal intervals of time in [0, 1]. Their ends are
+/// rounded, and each begins exactly where the last one ended. Returns one piece without rotation if
+/// `axis` is 0, and one that fault_of reports if `angle` or `axis` is not finite. Throws
+/// std::length_error or std::bad_alloc if there are too many pieces.
 std::vector<spline_piece<rigid_motion>> turn(const pose& from, const point<double>& axis,
                                              double angle, const point<double>& end,
                                              const point<double>& centre = {});

@@ -26,8 +26,8 @@ namespace errbound {
 namespace filters {
 
 /// A product of powers of infinitesimals e_0 >> e_1 >> ..., each smaller than all powers of the one
-/// before. Greater monomials are smaller numbers: fields of bits hold the exponents, that of the
-/// last infinitesimal first.
+/// before. Greater monomials are smaller numbers. Each exponent has a field of bits; that of the
+/// last infinitesimal is the most significant.
 template <std::size_t Count, int Degree>
 struct monomial {
     static constexpr std::size_t field = std::bit_width(static_cast<unsigned>(Degree));
