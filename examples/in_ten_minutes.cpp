@@ -33,7 +33,7 @@ int main() {
     ccd::mesh_steps steps(faces_of(triangles), {}, x.size() / 3);
     const ccd::vertex_rows step{x.data(), wanted.data(), x.size() / 3};
 
-    // Contacts: pairs, first times and points.
+    // Contacts: pairs, first times and normals.
     const ccd::step_result found = steps.run(step, {.times = true});
     const auto& pairs = found.pairs.vertex_face;
     const auto contacts = ccd::first_contacts(step, pairs, found.times.vertex_face);

@@ -1,10 +1,12 @@
 // The conditions of contact (listed in ccd/exact/reference.cpp) and of distance for each kind of
 // query, over any ring R of polynomials in t. Internal. The conditions of distance are Z <= 0
-// between features of each dimension whose nearest points are inside both.
+// for a face, an edge or a vertex of either feature. The nearest points of their planes or lines
+// must lie inside them. Z is defined at each function below.
 //
 // The least distance of two features is attained inside both, on an edge or at a vertex; if N = 0,
-// or an edge has no length, in a lower dimension. So the union is complete. Each condition implies
-// that some two points of the features are within that distance, so the union is not too large.
+// or an edge has no length, on an edge or at a vertex of theirs. So at any time within the
+// distance, some condition holds. Conversely, each condition implies that some two points of the
+// features are within that distance.
 //
 // Points may have positive weights. Each polynomial below is then multiplied by powers of them.
 #pragma once
@@ -162,7 +164,8 @@ condition<R> contact_condition(const vertex_edge_paths<R>& q) {
                 return side_conditions<R>{list(dot(q.v - q.e0, q.e1 - q.v)), {}};
             }};
 }
-/// Returns the conditions on the weights, to add where planes or lines meet or are at the distance.
+/// Returns G_i >= 0 and N ≠ 0: a contact (or the distance) of the plane or the lines is then one of
+/// the features.
 template <class Forms>
 auto inside_conditions(const Forms& forms) {
     const auto inside = list(forms.inside());

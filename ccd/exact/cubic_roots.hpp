@@ -47,8 +47,9 @@ struct inner_sign_changes {
 
 /// The Hessian of a cubic form y, a quadratic form h. A double root of y is a double root of h; h
 /// is zero if y has a triple root. 4·h0·h2 − h1² is 3 times the discriminant: positive for three
-/// distinct real roots t/s (infinity included), negative for one and a complex pair. If |y_i| <=
-/// 18D³ <= 2^(64·Words − 4.8), it fits in 2·Words words (at most 648D⁶). Proof:
+/// distinct real roots t/s (infinity included), negative for one and a complex pair. If
+/// coordinates differ by at most D, |y_0| and |y_3| are at most 6D³, the others 18D³, and the
+/// Hessian's coefficients 648D⁶. So if 18D³ <= 2^(64·w − 4.8), it fits in 2w words. Proof:
 /// proofs/contact/CubicRoots.v, any_change, one_real_root, double_root_place, triple_root_place.
 template <class Integer>
 constexpr auto hessian(const errbound::bernstein<Integer, 3>& y) {
@@ -57,7 +58,7 @@ constexpr auto hessian(const errbound::bernstein<Integer, 3>& y) {
                                                           y[2] * y[2] - thrice(y[1] * y[3])}};
 }
 
-/// Rounds all numbers, scaled by one power of two.
+/// All numbers times one power of two, without their lowest bits.
 template <class Integer, std::size_t N>
 constexpr std::array<double, N> approximated(const std::array<Integer, N>& x) {
     int bits = 0;
@@ -89,8 +90,8 @@ constexpr double estimated_root(const std::array<double, 4>& h) {
         const double next = inside ? newton : (low + high) / 2;
         const double moved = std::fabs(next - t);
         t = next;
-        // The remaining error is about the square of a Newton step. A further step from the last
-        // place would not improve t.
+        // The remaining error is about the square of a Newton step. Below 2^-30, a
+        // further step would not improve t.
         if (moved <= (inside ? converged : precision)) break;
     }
     return t;
@@ -181,7 +182,7 @@ constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
                                             const root_bracket<Words, T>& bracket) {
     using number = errbound::integers::fixed_integer<Words + 3 * T>;
     const auto end = errbound::integers::fixed_integer<T>::shifted(1, bracket.bits);
-    // dy/dt. Its coefficients are at most twice the bound of y's.
+    // dy/dt. Its coefficients are at most twice the bound 18D³ of y's.
     const errbound::bernstein<errbound::integers::fixed_integer<Words>, 2> slope{
         {y[1] - thrice(y[0]), (y[2] - y[1]) << 1, thrice(y[3]) - y[2]}};
     const errbound::integers::fixed_integer<1> width(bracket.width());

@@ -40,8 +40,8 @@ class range_reader {
     range_reader(std::filesystem::path path, std::optional<ccd::kind> kind, bool round,
                  std::size_t queries_of_a_range);
 
-    /// The next queries as by read_queries, with line numbers of the whole file; at least one
-    /// range.
+    /// Returns the next range of queries as read_queries does, with line numbers of the whole file;
+    /// nothing at the end. The first call always returns a range.
     std::optional<query_file> next();
     double share() const;  ///< of the file that was read, from 0 to 1
 
@@ -52,7 +52,8 @@ class range_reader {
     std::filesystem::path path_;
     ccd::kind kind_;
     bool round_, at_end_ = false;
-    std::uint64_t queries_of_a_range_, size_, read_ = 0;  ///< bytes; of a store: queries
+    std::uint64_t queries_of_a_range_;
+    std::uint64_t size_, read_ = 0;  ///< bytes; of a store: queries
     std::unique_ptr<store_reader> store_;
     std::optional<truth_file> truth_;  ///< once it is needed
     std::ifstream file_;

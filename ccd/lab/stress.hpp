@@ -71,7 +71,7 @@ struct plan {
     double seconds = 0;
 };
 
-/// `done` and `all` count cells, each for all methods.
+/// `done` and `all` count the values of knobs of all families.
 using stress_progress = std::function<void(std::size_t done, std::size_t all, const family& next)>;
 
 /// All cells, by family, knob, kind and subject. The truth is computed on several threads; methods
@@ -79,8 +79,9 @@ using stress_progress = std::function<void(std::size_t done, std::size_t all, co
 std::vector<cell> run(const plan& what, const stress_progress& show);
 
 /// Returns the promise that `answer` breaks, if any. `truth` is uncertain if coordinates are not
-/// finite; then answers must be `uncertain` with cause `range`. If a method promises no lost or no
-/// false collisions, `collides` and `separate` are certain; if both, it decides.
+/// finite; then answers must be `uncertain` with cause `range`. If a method promises no lost
+/// collisions, `separate` must be right; if it promises anything, so must `collides`. If it
+/// promises neither lost nor false collisions, it may not be `uncertain`.
 std::optional<std::string_view> broken_by(const subject& who, verdict answer, outcome truth);
 
 extern const std::vector<std::string> stress_columns;

@@ -43,7 +43,8 @@ struct received {
     std::vector<std::size_t> starts;
 };
 
-inline std::vector<std::size_t> starts_of(const std::vector<int>& counts) {
+template <class Count>
+std::vector<std::size_t> starts_of(const std::vector<Count>& counts) {
     std::vector<std::size_t> starts(counts.size() + 1);
     std::inclusive_scan(counts.begin(), counts.end(), starts.begin() + 1, std::plus<>(),
                         std::size_t(0));
@@ -100,18 +101,19 @@ class exchanger {
 
     template <class T>
     received<T> gather(const std::vector<T>& list) {
-        std::vector<int> counts(size());
-        const int mine = static_cast<int>(list.size());
-        MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
-        received<T> result{{}, starts_of(counts)};
+        std::vector<std::uint64_t> sizes(size());
+        const std::uint64_t mine = list.size();
+        MPI_Allgather(&mine, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, comm_);
+        received<T> result{{}, starts_of(sizes)};
         agree([&] {
             require_int(result.starts.back(), "receive");
             result.items.resize(result.starts.back());
         });
+        const std::vector<int> counts(sizes.begin(), sizes.end());
         const std::vector<int> offsets(result.starts.begin(), result.starts.end() - 1);
         const item_type<T> type;
-        MPI_Allgatherv(list.data(), mine, type, result.items.data(), counts.data(), offsets.data(),
-                       type, comm_);
+        MPI_Allgatherv(list.data(), static_cast<int>(mine), type, result.items.data(),
+                       counts.data(), offsets.data(), type, comm_);
         bytes_ += sizeof(T) * list.size() * (size() - 1);
         return result;
     }

@@ -72,7 +72,7 @@ class ordered_blocks {
         std::unique_lock lock(mutex_);
         return finished_.wait_for(lock, time, [&] { return working_ == 0; });
     }
-    /// Calls read(number of merged blocks) while nothing is merged.
+    /// Calls read(index of the next block to merge) while nothing is merged.
     template <class Read>
     auto between_merges(const Read& read) {
         const std::scoped_lock lock(mutex_);

@@ -110,8 +110,8 @@ constexpr auto alternating_sum(const auto& x, const auto&... rest) {
         return alternating_sum(rest...) + x;
 }
 /// The minor of the first K columns and a set of rows, expanded along the last of these columns.
-/// `minors` are those of the columns before. One function for all sets, so that only filters, which
-/// inline it, have code for each.
+/// `minors` are those of the columns before. `rows` are arguments, so that one function
+/// serves all sets, except in filters, which inline it.
 template <std::size_t K, std::size_t... J>
 constexpr auto minor_of(const auto& minors, const auto& column, std::array<unsigned char, K> rows,
                         std::array<unsigned char, K> others, std::index_sequence<J...>) {
@@ -522,8 +522,8 @@ inline constexpr auto compare_lengths3d =
     predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::squared_distance3d(a, b) - forms::squared_distance3d(c, d);
     });
-/// Negative if the line ab is less steep than cd; vertical lines are the steepest. Precondition:
-/// a != b, c != d.
+/// Negative if the slope of the line ab is less than that of cd; slopes are signed, and a vertical
+/// line has +∞. Precondition: a != b, c != d.
 inline constexpr auto compare_slopes =
     predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::compare_slopes(a, b, c, d);

@@ -5,8 +5,8 @@
 //
 // In a sound environment (environment.hpp), the result x of exact arithmetic lies within x.error()
 // of x.value(). This holds under every rule for which promises_bound (rules/rule.hpp) is true. A
-// literal is the double nearest to it: 0.1 above is that double, not a tenth. No exceptions, no
-// allocation, no global state, no virtual calls.
+// literal is the double nearest to it: 0.1 above is that double, not a tenth. No exceptions and no
+// virtual calls; except under `affine` and `explained`, no allocation and no global state.
 #pragma once
 
 #include <algorithm>

@@ -80,9 +80,9 @@ inline double time_of_short_way(const vertex_rows& way) {
 
 /// Calls step(options) with growing t_max until there is a contact, at last with t_max = 1 or the
 /// time of the sample's first contact. Short searches are cheap, and the first contact is usually
-/// early if vertices move by many times their spacing: a diverged line search. If they do not, the
-/// contacts of a sample of pairs show whether the first one is early. sample(options) returns the
-/// first of these.
+/// early if vertices move by many times their spacing, as when a solver diverges. If they do not,
+/// the contacts of a sample of pairs show whether the first one is early. sample(options) returns
+/// the first of these.
 template <class Others, class Sample, class Step>
 step_result step_to_first_contact(const vertex_rows& way, step_options options, Others& others,
                                   const Sample& sample, const Step& step) {
@@ -165,7 +165,8 @@ inline pair_distances near_distances(const advance_options& options, std::vector
 template <class Others>
 class advancing {
   public:
-    /// `groups` must be new; without `islands`, all vertices are one group.
+    /// Precondition: `groups` joins only vertices of one given group, or all if `islands` is false.
+    /// With `islands`, groups have their own fractions.
     advancing(mesh_steps& steps, const vertex_rows& way, const advance_options& options,
               bool islands, vertex_groups& groups, Others& others)
         : steps_(steps),

@@ -319,9 +319,10 @@ class analysis {
     }
     static bool is_scaling(const range& x) { return x.is_point() && is_power_of_two(x.lower()); }
 
-    /// The rounded f of two operands, monotone in each; of one if `once`. `exact` encloses it. For
-    /// doubles, the computed range ends in the rounded f of the operands' ends. If the largest
-    /// magnitude is a power of two, the exact value may be larger, with an ulp twice as large.
+    /// Sets `to` to the rounded f(x, y); f is monotone in each operand. With `once`, y is x.
+    /// `exact` encloses the values of f. For doubles, the computed range ends in the rounded f of
+    /// the operands' ends. If the largest magnitude is a power of two, the exact value may be
+    /// larger, with an ulp twice as large.
     template <class Operation>
     void set_rounded(node_state& to, const range& exact, const range& x, const range& y, bool once,
                      const Operation& f) {

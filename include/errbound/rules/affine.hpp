@@ -39,11 +39,12 @@ inline constexpr std::array<char, 32> affine_name = [] {
 }  // namespace detail
 
 /// Affine arithmetic with at most Limit terms, stored even if unused: 16 bytes each, 32 for long
-/// double. Cost: linear in the number of terms, plus Limit writes. An operation combines the
-/// operands' terms source by source, to first order. One new term takes the other errors, if any:
-/// the rounding error (exact, or at most u|v| + η/2), roundings of coefficients, second-order terms
-/// and the operands' rests. Above the limit, the smallest terms join the new one; x − x stays 0. If
-/// value or radius is not finite, there are no terms, and radius and rest are infinite or NaN.
+/// double. Cost: linear in the number of terms, plus Limit writes; quadratic if many terms are
+/// merged. An operation combines the operands' terms source by source, to first order. One new term
+/// takes the other errors, if any: the rounding error (exact, or at most u|v| + η/2), roundings of
+/// coefficients, second-order terms and the operands' rests. Above the limit, the smallest terms
+/// join the new one; x − x stays 0. If value or radius is not finite, there are no terms, and
+/// radius and rest are infinite or NaN.
 template <std::size_t Limit>
 struct affine_of {
     static_assert(Limit >= 1, "errbound: affine arithmetic needs at least one term");
