@@ -11,7 +11,10 @@
             strict sign of all coefficients there is no root in [0, 1]
         sign_inside_right, sign_throughout_right   conclusions of the code from signs of coefficients *)
 
-From Errbound Require Import Libraries Sign.
+From Coq Require Import Reals ZArith Lia Lra List.
+From Errbound Require Import Sign.
+Import ListNotations.
+Open Scope R_scope.
 
 Record scalar := {
   number :> Type;

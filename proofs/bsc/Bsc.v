@@ -3,8 +3,11 @@
         bsc_no     the answer "no": at every root of Y in [0, 1] some G is negative
         bsc_yes    the answer "yes": at some root of Y in [0, 1] every G is positive *)
 
-From Errbound Require Import Libraries Sign Bernstein.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Errbound Require Import Sign Bernstein.
 From Errbound Require Export BscSigns.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Answers.
 
@@ -102,6 +105,11 @@ Proof.
   intros A N. destruct (IVT_cor (form_at f) a b) as (x & X & Z); eauto.
   intros t. apply derivable_continuous_pt. exists (form_at (derivative f) t). apply derivative_form.
 Qed.
+Lemma strict_root (y : list S) : form_at y 0 * form_at y 1 < 0 -> exists r, 0 < r < 1 /\ form_at y r = 0.
+Proof.
+  intros N. destruct (between y 0 1) as (r & I & Z); [lra | lra |]. exists r. split; auto.
+  assert (r <> 0) by (intros ->; rewrite Z in N; lra). assert (r <> 1) by (intros ->; rewrite Z in N; lra). lra.
+Qed.
 
 (** If the signs of two ends are certain and opposite, there is a root between them. *)
 Lemma signs_of (x : S) :
@@ -144,10 +152,7 @@ Proof.
       andb_prop in C.
     pose proof (proj1 (certainly (y#0) (proj1 C)) (proj1 P)). pose proof (proj2 (certainly (y#3) (proj2
       C)) (proj2 P)).
-    destruct (between y 0 1) as (r & I & Z); [lra | rewrite S0, S3; nra |].
-    assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra).
-    exists r. split; [lra |]. split; auto.
-    assert (Ir : 0 < r < 1) by lra.
+    destruct (strict_root y) as (r & Ir & Z); [rewrite S0, S3; nra |]. exists r. split; [lra |]. split; auto.
     apply (proj2 (at_crossing_right y negative (certain (sign_of (y#0)) && certain (sign_of (y#3))) gs r
       L F (or_introl eq_refl) (Cross r Ir Z))). exact E. }
   assert (Inner : forall t, 0 <= t <= 1 -> form_at y t = 0 -> t <> 0 -> t <> 1 ->
@@ -185,8 +190,7 @@ Proof.
     (form_at y x))
     by (intros x X Z; now apply root_finding).
   assert (Extremum : form_at d 0 < 0 -> 0 < form_at d 1 -> exists x, 0 < x < 1 /\ form_at d x = 0).
-  { intros P Q. destruct (between d 0 1) as (x & X & Z); [lra | nra |]. exists x.
-    assert (x <> 0) by (intros ->; lra). assert (x <> 1) by (intros ->; lra). split; auto; lra. }
+  { intros P Q. apply strict_root. nra. }
   assert (Pair : forall b k r, 0 < form_at y 0 -> 0 < form_at y 1 -> 0 < r < 1 -> form_at y r = 0 ->
      (form_at d r <= 0 -> right_at (verdict b (map (fun f => fst (quartic_at_pair y d f)) gs)) gs r) /\
      (0 <= form_at d r -> right_at (verdict k (map (fun f => snd (quartic_at_pair y d f)) gs)) gs r)).
@@ -377,22 +381,18 @@ Proof.
       at_crossing y negative ec gs = yes -> answer).
     { intros P H. apply andb_prop in P. destruct (Ec (verdict_yes _ _ H)) as (C0 & C3).
       pose proof (proj1 (certainly _ C0) (proj1 P)). pose proof (proj2 (certainly _ C3) (proj2 P)).
-      destruct (between y 0 1) as (r & I & Z); [lra | rewrite S0, S3; nra |].
-      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1)
-        by lra.
+      destruct (strict_root y) as (r & Ir & Z); [rewrite S0, S3; nra |].
       destruct (rising_crossing _ _ r C Ir Z ltac:(lra)) as (K & _).
-      exists r. split; auto. split; auto.
+      exists r. split; [lra |]. split; auto.
       exact (proj2 (at_crossing_right y negative ec gs r L F (or_introl eq_refl) K) H). }
     assert (Positive : possibly_positive (sign_of (y#0)) = true -> possibly_negative (sign_of (y#3)) =
       true ->
       at_crossing y positive ec gs = yes -> answer).
     { intros P Q H. destruct (Ec (verdict_yes _ _ H)) as (C0 & C3).
       pose proof (proj2 (certainly _ C0) P). pose proof (proj1 (certainly _ C3) Q).
-      destruct (between y 0 1) as (r & I & Z); [lra | rewrite S0, S3; nra |].
-      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1)
-        by lra.
+      destruct (strict_root y) as (r & Ir & Z); [rewrite S0, S3; nra |].
       destruct (falling_crossing _ _ r C Ir Z ltac:(lra)) as (K & _).
-      exists r. split; auto. split; auto.
+      exists r. split; [lra |]. split; auto.
       exact (proj2 (at_crossing_right y positive ec gs r L F (or_intror eq_refl) K) H). }
     assert (Start : same_sign (sign_of (y#0)) zero = true ->
       possibly_negative (sign_of (y#1)) && possibly_positive (sign_of (y#3)) = true ->
@@ -408,13 +408,11 @@ Proof.
       set (e := elevated [y#1; y#2; y#3]) in *.
       assert (E0 : form_at e 0 = exact (y#1)) by (now rewrite at_start).
       assert (E1 : form_at e 1 = exact (y#3)) by (now rewrite (at_finish e 3)).
-      destruct (between e 0 1) as (r & I & Z); [lra | rewrite E0, E1; nra |].
-      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1)
-        by lra.
+      destruct (strict_root e) as (r & Ir & Z); [rewrite E0, E1; nra |].
       assert (Zy : form_at y r = 0) by (rewrite <- (without_start y r L Y0); fold e; rewrite Z; ring).
       destruct (rising_crossing _ _ r C Ir Zy ltac:(lra)) as (Ky & _).
       destruct (crossing_without_start y _ r L C D0 Y0 Ky) as (_ & Ke).
-      exists r. split; auto. split; auto.
+      exists r. split; [lra |]. split; auto.
       exact (proj2 (at_crossing_right e negative _ gs r eq_refl F (or_introl eq_refl) Ke) H). }
     assert (Finish : possibly_positive (sign_of (y#0)) = true -> same_sign (sign_of (y#3)) zero = true
       ->
@@ -432,13 +430,11 @@ Proof.
       set (e := elevated [y#0; y#1; y#2]) in *.
       assert (E0 : form_at e 0 = exact (y#0)) by (now rewrite at_start).
       assert (E1 : form_at e 1 = exact (y#2)) by (now rewrite (at_finish e 3)).
-      destruct (between e 0 1) as (r & I & Z); [lra | rewrite E0, E1; nra |].
-      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1)
-        by lra.
+      destruct (strict_root e) as (r & Ir & Z); [rewrite E0, E1; nra |].
       assert (Zy : form_at y r = 0) by (rewrite <- (without_finish y r L Y1); fold e; rewrite Z; ring).
       destruct (falling_crossing _ _ r C Ir Zy ltac:(lra)) as (Ky & _).
       destruct (crossing_without_finish y _ r L C D1 Y1 Ky) as (_ & Ke).
-      exists r. split; auto. split; auto.
+      exists r. split; [lra |]. split; auto.
       exact (proj2 (at_crossing_right e positive _ gs r eq_refl F (or_intror eq_refl) Ke) H). }
     assert (Two : possibly_positive (sign_of (y#0)) = true -> possibly_positive (sign_of (y#3)) = true
       ->

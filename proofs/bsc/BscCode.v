@@ -1,7 +1,10 @@
 (** The code of Bernstein sign classification (include/errbound/bsc.hpp), in its order, over every scalar
     (Bernstein.v). Y is a cubic and each G a quartic, as lists of scaled coefficients. *)
 
-From Errbound Require Import Libraries Sign Bernstein.
+From Coq Require Import Reals ZArith List Bool.
+From Errbound Require Import Sign Bernstein.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Signs (include/errbound/sign.hpp) *)
 

@@ -7,7 +7,10 @@
         bsc_exact_face, bsc_exact_edges   bsc_exact.cpp returns `collides` exactly if the features do, given
                            doubles, common_factor and real_roots as in UnboundedIntegers.v *)
 
-From Errbound Require Import Libraries RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Exact.
 
@@ -280,13 +283,6 @@ Proof.
   intros B (I & Z & Before & After & _) t. split; [| now intros <-]. intros (T & Zt).
   destruct (Rtotal_order t r) as [H | [H | H]]; auto;
     [specialize (Before t ltac:(lra)) | specialize (After t ltac:(lra))]; rewrite Zt in *; lra.
-Qed.
-
-Lemma strict_root (y : list S) : form_at y 0 * form_at y 1 < 0 -> exists r, inner y r.
-Proof.
-  intros N. destruct (between y 0 1) as (r & I & Z); [lra | lra |]. exists r. split; auto.
-  assert (r <> 0) by (intros ->; rewrite Z in N; lra). assert (r <> 1) by (intros ->; rewrite Z in N;
-    lra). lra.
 Qed.
 
 Lemma at_ends y : length y = 4%nat -> form_at y 0 = exact (y#0) /\ form_at y 1 = exact (y#3).

@@ -7,8 +7,11 @@
         polynomial_decomposition   M J = - s t R at a root of Y, up to positive factors
         root_finding           the sign of Y at its only inner extremum *)
 
-From Errbound Require Import Libraries Sign Bernstein.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Errbound Require Import Sign Bernstein.
 From Errbound Require Export BscCode.
+Import ListNotations.
+Open Scope R_scope.
 
 Lemma length_2 {A} (l : list A) : length l = 2%nat -> exists a b, l = [a; b].
 Proof. destruct l as [| a [| b [|]]]; try discriminate. eauto. Qed.

@@ -9,7 +9,10 @@
         face_separated, edges_separated, vertex_edge_separated   a fixed axis that separates the features in the
                                     same direction at both ends of the step separates them throughout *)
 
-From Errbound Require Import Libraries Sign Bernstein Bsc Contact.
+From Coq Require Import Reals ZArith Lia Lra Psatz List.
+From Errbound Require Import Sign Bernstein Bsc Contact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The forms *)
 

@@ -6,7 +6,8 @@
         extremum_not_at_start    "the sign of the extreme point is that of T(0)": wrong
         decomposition_zero       "sign G = - sign M sign R": wrong if M vanishes with Y *)
 
-From Errbound Require Import Libraries.
+From Coq Require Import Reals Lra Psatz.
+Open Scope R_scope.
 
 (** Y' is negative and Y positive at both ends, so the classification finds no extremum and no root. But Y has two
     roots. Its inflection is at 1 - 4e. *)

@@ -7,9 +7,13 @@
         tracked_face_separate, tracked_edges_separate   a "no" is right
         tracked_face_collides, tracked_edges_collide    a "yes" is right *)
 
-From Errbound Require Import FloatLibraries Ieee IeeeRules.
-From Errbound Require Sign Bernstein BscCode Contact Decisions AxisUnits IeeeSafe IeeeInterval IeeeResidual CompoundCode
-  IeeeFunctions IeeeCompound.
+From Coq Require Import Reals ZArith Lia Lra List Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code Ieee IeeeRules.
+From Errbound Require Sign Bernstein BscCode Contact Decisions AxisUnits IeeeSafe IeeeInterval IeeeResidual
+  CompoundCode IeeeFunctions IeeeCompound.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** BSC over any scalar, as decide_bsc evaluates it *)
 

@@ -4,8 +4,11 @@
         separated_right          if `separated_by_coordinates` (ccd/exact/features.hpp) is true, vertex and edge do
                                  not meet *)
 
-From Errbound Require Import Libraries Sign Bernstein Contact Decisions.
+From Coq Require Import Reals ZArith Lra List Bool.
+From Errbound Require Import Sign Bernstein Contact Decisions.
 From Errbound Require BoundedInteger.
+Import ListNotations.
+Open Scope R_scope.
 
 (** Exact integers as scalars of Bernstein.v. *)
 Program Definition integers : scalar := {|

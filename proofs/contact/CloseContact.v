@@ -11,10 +11,12 @@
         face_to_the_end_right, edges_to_the_end_right   certain answers of decide_to_the_end are right
         close_widths, narrowed_fits   all numbers fit their types *)
 
-From Coq Require Import Classical.
-From Errbound Require Import FloatLibraries Sign Bernstein Subdivision Contact VertexEdge Decisions AxisUnits CubicRoots
-  InteriorContact.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein Subdivision Contact VertexEdge Decisions AxisUnits CubicRoots InteriorContact.
 From Errbound Require BoundedInteger FixedWidths.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Subintervals of a cubic *)
 

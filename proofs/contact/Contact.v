@@ -9,8 +9,9 @@
         face_coplanar, edges_coplanar        Y = 0 throughout: contact at t = 0, or vertex/edge contact
         query_...       the same for either query *)
 
-From Coq Require Import FunctionalExtensionality.
-From Errbound Require Import Libraries.
+From Coq Require Import Reals Lra Psatz List FunctionalExtensionality.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Space *)
 
@@ -35,6 +36,9 @@ Lemma same_point p q : x p = x q -> y p = y q -> z p = z q -> p = q.
 Proof. destruct p, q. simpl. now intros -> -> ->. Qed.
 Lemma point_eq p q : p = q -> x p = x q /\ y p = y q /\ z p = z q.
 Proof. now intros ->. Qed.
+(** Proves equations of vectors or of their products, also from such equations. *)
+Ltac vector := repeat match goal with H : @eq point _ _ |- _ => apply point_eq in H end;
+  coordinates; try apply same_point; cbn [x y z]; ring || lra.
 
 Lemma square_0 v : dot v v = 0 -> v = origin.
 Proof. destruct v as [a b c]. coordinates. intros H. apply same_point; simpl; nra. Qed.
@@ -82,9 +86,7 @@ Lemma decomposed b c p : let n := cross b c in
   along (along (along origin (- dot n n) p) (weight_1 b c p) b) (weight_2 b c p) c = along origin (- det
     b c p) n.
 Proof.
-  destruct b as [b0 b1 b2], c as [c0 c1 c2], p as [p0 p1 p2]. unfold weight_1, weight_2, det.
-    coordinates.
-  apply same_point; simpl; ring.
+  unfold weight_1, weight_2, det. vector.
 Qed.
 
 Lemma face_at_normal p a b c : let B := minus b a in let C := minus c a in let P := minus p a in
@@ -116,8 +118,7 @@ Lemma degenerate a b c : cross (minus b a) (minus c a) = origin ->
   in_segment c a b \/ in_segment b a c \/ in_segment a b c.
 Proof.
   intros H. destruct (origin_dec (minus b a)) as [E | N].
-  - right. left. exists 0. split; [lra |]. apply point_eq in E. destruct a, b. coordinates.
-    apply same_point; simpl; lra.
+  - right. left. exists 0. split; [lra |]. vector.
   - destruct (parallel _ _ N H) as (k & E). apply point_eq in E. destruct a as [a0 a1 a2], b as [b0 b1
       b2], c as [c0 c1 c2].
     coordinates. destruct E as (E0 & E1 & E2).
@@ -133,24 +134,23 @@ Qed.
 
 Lemma segment_sym p a b : in_segment p a b -> in_segment p b a.
 Proof.
-  intros (u & U & ->). exists (1 - u). split; [lra |]. destruct a, b. coordinates. apply same_point;
-    simpl; ring.
+  intros (u & U & ->). exists (1 - u). split; [lra |]. vector.
 Qed.
 (** A triangle one of whose vertices lies on the opposite edge is that edge. *)
 Lemma covered p a b c : in_triangle p a b c -> in_segment c a b -> in_segment p a b.
 Proof.
   intros (u & v & U & V & W & ->) (k & K & ->). exists (u + v * k). split; [nra |].
-  destruct a, b. coordinates. apply same_point; simpl; ring.
+  vector.
 Qed.
 Lemma triangle_swap p a b c : in_triangle p a b c -> in_triangle p a c b.
 Proof.
   intros (u & v & U & V & W & ->). exists v, u. repeat split; try lra.
-  destruct a, b, c. coordinates. apply same_point; simpl; ring.
+  vector.
 Qed.
 Lemma triangle_turn p a b c : in_triangle p a b c -> in_triangle p b c a.
 Proof.
   intros (u & v & U & V & W & ->). exists v, (1 - u - v). repeat split; try lra.
-  destruct a, b, c. coordinates. apply same_point; simpl; ring.
+  vector.
 Qed.
 
 (** Contact in the interior of a face, as the code tests it. *)
@@ -182,12 +182,9 @@ Proof.
       fold n2 in W0. do 2 eexists. repeat split; [| | | exact E];
         try (apply Rmult_le_pos; auto; left; now apply Rinv_0_lt_compat).
       apply Rmult_le_reg_r with n2; auto. field_simplify; lra.
-    + exists u, 0. repeat split; try lra. rewrite E. destruct a, b, c. coordinates. apply same_point;
-        simpl; ring.
-    + exists (1 - u), u. repeat split; try lra. rewrite E. destruct a, b, c. coordinates. apply
-        same_point; simpl; ring.
-    + exists 0, (1 - u). repeat split; try lra. rewrite E. destruct a, b, c. coordinates. apply
-        same_point; simpl; ring.
+    + exists u, 0. repeat split; try lra. rewrite E. vector.
+    + exists (1 - u), u. repeat split; try lra. rewrite E. vector.
+    + exists 0, (1 - u). repeat split; try lra. rewrite E. vector.
 Qed.
 
 (** Contact in the interior of two edges, as the code tests it. *)
@@ -223,9 +220,7 @@ Lemma weights_at_meeting a0 a1 b0 b1 s t : along a0 s (minus a1 a0) = along b0 t
 Proof.
   intros E B C P. fold B C in E. apply point_eq in E.
   assert (Ep : P = along (along origin s B) (- t) C).
-  { unfold P. clearbody B C. destruct E as (E0 & E1 & E2). unfold along, minus, origin in *. cbn [x y z]
-      in *.
-    apply same_point; cbn [x y z]; lra. }
+  { unfold P. clearbody B C. destruct E as (E0 & E1 & E2). vector. }
   rewrite Ep. clearbody B C. unfold det, on_a, on_b, square_normal. destruct B, C. coordinates. repeat
     split; ring.
 Qed.
@@ -280,8 +275,7 @@ Proof.
           as (Z0 & Z1 & Z2).
         unfold along. rewrite Z0, Z1, Z2. destruct b0. simpl. apply same_point; simpl; ring. }
       destruct (parallel _ _ Na E) as (k & Ek).
-      assert (K : k <> 0) by (intros ->; apply Nb; rewrite Ek; coordinates; apply same_point; simpl;
-        ring).
+      assert (K : k <> 0) by (intros ->; apply Nb; rewrite Ek; vector).
       rewrite Ea in Eb. apply point_eq in Eb, Ek.
       destruct a0 as [p0 p1 p2], a1 as [q0 q1 q2], b0 as [r0 r1 r2], b1 as [w0 w1 w2]. coordinates.
       destruct Eb as (E0 & E1 & E2), Ek as (K0 & K1 & K2).
@@ -305,14 +299,10 @@ Proof.
       eexists. split; [eexists; split; [| reflexivity] | eexists; split; [| exact E]];
         (split; [apply Rmult_le_pos; auto; left; now apply Rinv_0_lt_compat |
                  apply Rmult_le_reg_r with n2; auto; field_simplify; lra]).
-    + exists a0. split; auto. exists 0. split; [lra |]. destruct a0, a1. coordinates. apply same_point;
-        simpl; ring.
-    + exists a1. split; auto. exists 1. split; [lra |]. destruct a0, a1. coordinates. apply same_point;
-        simpl; ring.
-    + exists b0. split; auto. exists 0. split; [lra |]. destruct b0, b1. coordinates. apply same_point;
-        simpl; ring.
-    + exists b1. split; auto. exists 1. split; [lra |]. destruct b0, b1. coordinates. apply same_point;
-        simpl; ring.
+    + exists a0. split; auto. exists 0. split; [lra |]. vector.
+    + exists a1. split; auto. exists 1. split; [lra |]. vector.
+    + exists b0. split; auto. exists 0. split; [lra |]. vector.
+    + exists b1. split; auto. exists 1. split; [lra |]. vector.
 Qed.
 
 (** Vertex/edge contact as the code tests it: W x E = 0 and W X <= 0, with W = v - e0, X = v - e1. *)
@@ -323,7 +313,7 @@ Theorem vertex_edge_contact v e0 e1 : in_segment v e0 e1 <-> vertex_edge_test v 
 Proof.
   split.
   - intros (u & U & ->). unfold vertex_edge_test. split.
-    + destruct e0, e1. coordinates. apply same_point; simpl; ring.
+    + vector.
     + replace (dot _ _) with (- (u * (1 - u) * dot (minus e1 e0) (minus e1 e0)))
         by (destruct e0, e1; coordinates; ring).
       assert (0 <= dot (minus e1 e0) (minus e1 e0)) by (unfold dot; nra).
@@ -334,16 +324,15 @@ Proof.
           *.
         - assert (0 <= dot (minus v e0) (minus v e0)) by (unfold dot; nra).
           assert (X : minus v e1 = minus v e0).
-          { apply point_eq in E. destruct v, e0, e1. coordinates. apply same_point; simpl; lra. }
+          { vector. }
           rewrite X in *. lra.
-        - f_equal. apply point_eq in E. destruct v, e0, e1. coordinates. apply same_point; simpl; lra. }
-      exists 0. split; [lra |]. apply point_eq in Z. destruct v, e0. coordinates. apply same_point;
-        simpl; lra.
+        - f_equal. vector. }
+      exists 0. split; [lra |]. vector.
     + assert (C' : cross (minus e1 e0) (minus v e0) = origin).
-      { apply point_eq in C. destruct v, e0, e1. coordinates. apply same_point; simpl; lra. }
+      { vector. }
       destruct (parallel _ _ N C') as (k & K). exists k.
       assert (Ev : v = along e0 k (minus e1 e0)).
-      { apply point_eq in K. destruct v, e0, e1. coordinates. apply same_point; simpl; lra. }
+      { vector. }
       split; auto. apply square_positive in N. rewrite Ev in D.
       replace (dot _ _) with (- (k * (1 - k) * dot (minus e1 e0) (minus e1 e0))) in D
         by (destruct e0, e1; coordinates; ring).
@@ -423,7 +412,7 @@ Proof.
     assert (0 <= (1 - t) / t) by (apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra]).
     assert (0 <= (1 - t) / t * (a * a + b * b + c * c)) by (apply Rmult_le_pos; nra). lra.
   - intros (C & D). destruct (origin_dec p) as [-> | N].
-    { exists 0. split; [lra |]. apply E. destruct q. coordinates. apply same_point; simpl; ring. }
+    { exists 0. split; [lra |]. apply E. vector. }
     destruct (parallel _ _ N C) as (k & K). subst q. apply square_positive in N.
     assert (k <= 0) by (destruct p; coordinates; nra).
     exists (1 / (1 - k)). split.
@@ -490,20 +479,17 @@ Proof.
   rewrite Eb. unfold in_segment. fold e. clearbody e w. clear Eb.
   destruct (origin_dec e) as [-> | N].
   { destruct (origin_dec w) as [-> | Nw].
-    - left. exists 0. split; [lra |]. apply Ep. coordinates. apply same_point; simpl; ring.
+    - left. exists 0. split; [lra |]. apply Ep. vector.
     - right. exists w. apply square_positive in Nw. split; auto.
-      replace (dot w (along w 1 origin)) with (dot w w); auto. unfold dot, along, origin. simpl. ring. }
+      replace (dot w (along w 1 origin)) with (dot w w); auto. vector. }
   apply square_positive in N. set (m := dot w e / dot e e). set (n := along w (- m) e).
   assert (Pn : dot n e = 0) by (unfold n, m, dot, along in *; simpl in *; field; lra).
   destruct (origin_dec n) as [Z | Nn].
   - assert (Ew : w = along origin m e).
-    { unfold n in Z. apply point_eq in Z. unfold along, origin in *. cbn [x y z] in *. apply same_point;
-        cbn [x y z]; lra. }
-    assert (D0 : dot e w = m * dot e e) by (rewrite Ew; unfold dot, along, origin; simpl; ring).
-    assert (D1 : dot e (along w 1 e) = (m + 1) * dot e e) by (rewrite Ew; unfold dot, along, origin;
-      simpl; ring).
-    assert (Opp : forall q, dot (along origin (-1) e) q = - dot e q) by (intros q; unfold dot, along,
-      origin; simpl; ring).
+    { unfold n in Z. vector. }
+    assert (D0 : dot e w = m * dot e e) by (rewrite Ew; vector).
+    assert (D1 : dot e (along w 1 e) = (m + 1) * dot e e) by (rewrite Ew; vector).
+    assert (Opp : forall q, dot (along origin (-1) e) q = - dot e q) by (intros q; vector).
     destruct (Rlt_or_le 0 m) as [M | M]; [right; exists e; rewrite D0, D1; split; apply
       Rmult_lt_0_compat; lra |].
     destruct (Rlt_or_le m (-1)) as [L | L].
@@ -512,8 +498,7 @@ Proof.
   - right. exists n. apply square_positive in Nn.
     assert (D : dot n w = dot n n).
     { transitivity (dot n n + m * dot n e); [unfold n, dot, along; simpl; ring | rewrite Pn; ring]. }
-    split; [lra |]. replace (dot n (along w 1 e)) with (dot n w + dot n e) by (unfold dot, along; simpl;
-      ring). lra.
+    split; [lra |]. replace (dot n (along w 1 e)) with (dot n w + dot n e) by vector. lra.
 Qed.
 
 Lemma off_degenerate p a b c : cross (minus b a) (minus c a) = origin ->
@@ -524,8 +509,7 @@ Proof.
   assert (Between : forall n q r s, in_segment s q r -> 0 < dot n (minus q p) -> 0 < dot n (minus r p)
     -> 0 < dot n (minus s p)).
   { intros n q r s (u & U & ->) A B.
-    replace (dot _ _) with ((1 - u) * dot n (minus q p) + u * dot n (minus r p)) by (unfold dot, along,
-      minus; simpl; ring).
+    replace (dot _ _) with ((1 - u) * dot n (minus q p) + u * dot n (minus r p)) by vector.
     destruct (Req_dec u 0) as [-> | Nu]; [lra |]. assert (0 < u * dot n (minus r p)) by (apply
       Rmult_lt_0_compat; lra).
     assert (0 <= (1 - u) * dot n (minus q p)) by (apply Rmult_le_pos; lra). lra. }
@@ -545,8 +529,7 @@ Lemma off_parallel a0 a1 b0 b1 : cross (minus a1 a0) (minus b1 b0) = origin ->
     0 < dot n (minus b0 a1) /\ 0 < dot n (minus b1 a1).
 Proof.
   intros H. destruct (origin_dec (minus a1 a0)) as [E | N].
-  { assert (a1 = a0) by (apply point_eq in E; destruct a0, a1; coordinates; apply same_point; simpl;
-      lra). subst a1.
+  { assert (a1 = a0) by (apply point_eq in E; destruct a0, a1; vector). subst a1.
     destruct (off_segment a0 b0 b1) as [I | (n & A & B)]; [left; apply edges_at_a_time; right; now left
       |].
     right. exists n. auto. }
@@ -571,16 +554,14 @@ Proof.
   assert (Pn : dot n e = 0) by (unfold n, m; clearbody e w; unfold dot, along in *; simpl in *; field;
     lra).
   assert (Along : forall p j, dot p (along w j e) = dot p w + j * dot p e)
-    by (intros p j; clearbody e w; unfold dot, along; simpl; ring).
+    by (intros p j; clearbody e w; vector).
   destruct (origin_dec n) as [Z | Nn].
   - assert (Ew : w = along origin m e).
-    { unfold n in Z. apply point_eq in Z. clearbody w e m. unfold along, origin in *. cbn [x y z] in *.
-      apply same_point; cbn [x y z]; lra. }
+    { unfold n in Z. apply point_eq in Z. clearbody w e m. vector. }
     assert (D0 : dot e w = m * dot e e).
-    { transitivity (dot e (along origin m e)); [now rewrite <- Ew | clearbody e; unfold dot, along,
-        origin; simpl; ring]. }
+    { transitivity (dot e (along origin m e)); [now rewrite <- Ew | clearbody e; vector]. }
     assert (Opp : forall q, dot (along origin (-1) e) q = - dot e q)
-      by (intros q; clearbody e; unfold dot, along, origin; simpl; ring).
+      by (intros q; clearbody e; vector).
     destruct (Rlt_or_le 1 m) as [M | M]; [| destruct (Rlt_or_le m 0) as [M0 | M0]].
     + destruct (Rlt_or_le 1 (m + k)) as [L | L].
       * right. exists e. rewrite !Along, D0. repeat split; nra.
@@ -594,7 +575,7 @@ Proof.
   - right. exists n. apply square_positive in Nn.
     assert (D : dot n w = dot n n).
     { transitivity (dot n n + m * dot n e); [| rewrite Pn; ring].
-      unfold n. clearbody m w e. unfold dot, along; simpl; ring. }
+      unfold n. clearbody m w e. vector. }
     rewrite !Along, Pn, D. repeat split; lra.
 Qed.
 
@@ -658,6 +639,15 @@ Proof.
   rewrite <- Ev in H. unfold v in H. lra.
 Qed.
 
+Lemma all_stay_separated n s b l : s < b -> Forall (fun c => 0 < dot n (minus (place (fst c) s) (place (snd c) s))) l ->
+  exists e, s < e <= b /\ forall t, s < t < e -> Forall (fun c => 0 < dot n (minus (place (fst c) t) (place (snd c) t))) l.
+Proof.
+  intros B. induction 1 as [| c l P _ (e & E & IH)]; [exists b; split; [lra | auto] |].
+  apply stays_separated in P. destruct P as (d & D & P). exists (Rmin d e).
+  pose proof (Rmin_l d e). pose proof (Rmin_r d e). pose proof (Rmin_glb_lt d e s D (proj1 E)). split; [lra |].
+  intros t T. constructor; [apply P | apply IH]; lra.
+Qed.
+
 (** Contact of a face that degenerates at time s, if there is contact right after s. *)
 Lemma face_closed v f0 f1 f2 s b : s < b ->
   cross (minus (place f1 s) (place f0 s)) (minus (place f2 s) (place f0 s)) = origin ->
@@ -665,28 +655,20 @@ Lemma face_closed v f0 f1 f2 s b : s < b ->
   in_triangle (place v s) (place f0 s) (place f1 s) (place f2 s).
 Proof.
   intros B D H. destruct (off_degenerate (place v s) _ _ _ D) as [| (n & P0 & P1 & P2)]; auto. exfalso.
-  apply stays_separated in P0, P1, P2. destruct P0 as (e0 & E0 & P0), P1 as (e1 & E1 & P1), P2 as (e2 & E2
-    & P2).
-  set (e := Rmin (Rmin e0 e1) (Rmin e2 b)).
-  assert (E : s < e /\ e <= e0 /\ e <= e1 /\ e <= e2 /\ e <= b).
-  { pose proof (Rmin_l (Rmin e0 e1) (Rmin e2 b)). pose proof (Rmin_r (Rmin e0 e1) (Rmin e2 b)).
-    pose proof (Rmin_l e0 e1). pose proof (Rmin_r e0 e1). pose proof (Rmin_l e2 b). pose proof (Rmin_r
-      e2 b).
-    unfold e. split; [repeat apply Rmin_glb_lt; auto |]. lra. }
-  set (t := (s + e) / 2). assert (T : s < t < e) by (unfold t; lra).
-  specialize (P0 t ltac:(lra)). specialize (P1 t ltac:(lra)). specialize (P2 t ltac:(lra)).
+  destruct (all_stay_separated n s b [(f0, v); (f1, v); (f2, v)] B) as (e & E & P); [now repeat constructor |].
+  set (t := (s + e) / 2). specialize (P t ltac:(unfold t; lra)). assert (T : s < t <= b) by (unfold t; lra).
+  rewrite !Forall_cons_iff in P. destruct P as (Q0 & Q1 & Q2 & _).
   destruct (H t ltac:(lra)) as (u & w & U & W & UW & Ep).
   assert (Z : (1 - u - w) * dot n (minus (place f0 t) (place v t)) + u * dot n (minus (place f1 t)
     (place v t))
               + w * dot n (minus (place f2 t) (place v t)) = 0).
-  { rewrite Ep. generalize (place f0 t) (place f1 t) (place f2 t). intros a c d. unfold dot, along,
-      minus. simpl. ring. }
+  { rewrite Ep. generalize (place f0 t) (place f1 t) (place f2 t). intros a c d. vector. }
   assert (Weights : forall g h k, 0 < g -> 0 < h -> 0 < k -> 0 < (1 - u - w) * g + u * h + w * k).
   { intros g h k G Hh K. assert (0 <= (1 - u - w) * g) by (apply Rmult_le_pos; lra).
     assert (0 <= u * h) by (apply Rmult_le_pos; lra). assert (0 <= w * k) by (apply Rmult_le_pos; lra).
     destruct (Req_dec u 0) as [-> |]; [| assert (0 < u * h) by (apply Rmult_lt_0_compat; lra); lra].
     destruct (Req_dec w 0) as [-> |]; [| assert (0 < w * k) by (apply Rmult_lt_0_compat; lra)]; lra. }
-  specialize (Weights _ _ _ P0 P1 P2). lra.
+  specialize (Weights _ _ _ Q0 Q1 Q2). cbn [fst snd] in Weights. lra.
 Qed.
 Lemma edges_closed a0 a1 b0 b1 s b : s < b ->
   cross (minus (place a1 s) (place a0 s)) (minus (place b1 s) (place b0 s)) = origin ->
@@ -694,27 +676,16 @@ Lemma edges_closed a0 a1 b0 b1 s b : s < b ->
   segments_meet (place a0 s) (place a1 s) (place b0 s) (place b1 s).
 Proof.
   intros B D H. destruct (off_parallel _ _ _ _ D) as [| (n & P0 & P1 & P2 & P3)]; auto. exfalso.
-  apply stays_separated in P0, P1, P2, P3.
-  destruct P0 as (e0 & E0 & P0), P1 as (e1 & E1 & P1), P2 as (e2 & E2 & P2), P3 as (e3 & E3 & P3).
-  set (e := Rmin (Rmin e0 e1) (Rmin (Rmin e2 e3) b)).
-  assert (E : s < e /\ e <= e0 /\ e <= e1 /\ e <= e2 /\ e <= e3 /\ e <= b).
-  { pose proof (Rmin_l (Rmin e0 e1) (Rmin (Rmin e2 e3) b)). pose proof (Rmin_r (Rmin e0 e1) (Rmin (Rmin
-      e2 e3) b)).
-    pose proof (Rmin_l e0 e1). pose proof (Rmin_r e0 e1). pose proof (Rmin_l (Rmin e2 e3) b).
-    pose proof (Rmin_r (Rmin e2 e3) b). pose proof (Rmin_l e2 e3). pose proof (Rmin_r e2 e3).
-    unfold e. split; [repeat apply Rmin_glb_lt; auto |]. lra. }
-  set (t := (s + e) / 2). assert (T : s < t < e) by (unfold t; lra).
-  specialize (P0 t ltac:(lra)). specialize (P1 t ltac:(lra)). specialize (P2 t ltac:(lra)). specialize
-    (P3 t ltac:(lra)).
+  destruct (all_stay_separated n s b [(b0, a0); (b1, a0); (b0, a1); (b1, a1)] B) as (e & E & P); [now repeat constructor |].
+  set (t := (s + e) / 2). specialize (P t ltac:(unfold t; lra)). assert (T : s < t <= b) by (unfold t; lra).
+  rewrite !Forall_cons_iff in P. destruct P as (Q0 & Q1 & Q2 & Q3 & _). cbn [fst snd] in Q0, Q1, Q2, Q3.
   destruct (H t ltac:(lra)) as (p & (u & U & Ea) & (w & W & Eb)).
   assert (Z : (1 - u) * ((1 - w) * dot n (minus (place b0 t) (place a0 t)) + w * dot n (minus (place b1
     t) (place a0 t)))
               + u * ((1 - w) * dot n (minus (place b0 t) (place a1 t)) + w * dot n (minus (place b1 t)
                   (place a1 t))) = 0).
-  { transitivity (dot n (minus p p)); [rewrite Ea at 2; rewrite Eb at 1 | unfold dot, minus; simpl;
-      ring].
-    generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t). intros a c d g. unfold dot, along,
-      minus. simpl. ring. }
+  { transitivity (dot n (minus p p)); [rewrite Ea at 2; rewrite Eb at 1 | vector].
+    generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t). intros a c d g. vector. }
   assert (Mix : forall k g h, 0 <= k <= 1 -> 0 < g -> 0 < h -> 0 < (1 - k) * g + k * h) by (intros;
     nra).
   assert (0 < (1 - w) * dot n (minus (place b0 t) (place a0 t)) + w * dot n (minus (place b1 t) (place

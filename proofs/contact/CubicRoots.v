@@ -7,8 +7,10 @@
         halves_at, halves_changes   halves of an interval together have no more sign changes than the whole
         bracket_near_right  a bracket contains the root that is crossed, or is a root *)
 
-From Coq Require Import Classical.
-From Errbound Require Import Libraries Sign Bernstein VertexEdge.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
+From Errbound Require Import Sign Bernstein VertexEdge.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Signs of coefficients *)
 

@@ -7,8 +7,11 @@
                             concern only the calls of this query, and only if it reaches the reference
         batch_face_right, batch_edges_right   the same with the earlier tests of batches and steps, in any order *)
 
-From Errbound Require Import FloatLibraries Format Contact AxisUnits UnboundedIntegers Reference RootFinder.
+From Coq Require Import Reals ZArith List Bool Lia.
+From Flocq Require Import Core.
+From Errbound Require Import Format Contact AxisUnits UnboundedIntegers Reference RootFinder.
 From Errbound Require IntegerUnits Subdivision SeparatingAxis FilterStages Decisions InteriorContact CloseContact.
+Import ListNotations.
 
 (** ** Tests in any order *)
 

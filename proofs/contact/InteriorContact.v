@@ -10,10 +10,12 @@
         face_decision_right, edges_decision_right, vertex_edge_decision_right   certain answers of contact_of are
             right *)
 
-From Coq Require Import Classical.
-From Errbound Require Import FloatLibraries Sign Bernstein Subdivision Contact VertexEdge Decisions AxisUnits
-  CubicRoots.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein Subdivision Contact VertexEdge Decisions AxisUnits CubicRoots.
 From Errbound Require BoundedInteger.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Weights at a time *)
 

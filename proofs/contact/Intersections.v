@@ -10,7 +10,10 @@
         sections_right            two triangles in different planes share a point if and only if the code's two
                                   comparisons of the sections' ends do not exclude it *)
 
-From Errbound Require Import Libraries Contact.
+From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
+From Errbound Require Import Contact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The code *)
 

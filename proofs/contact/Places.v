@@ -4,7 +4,10 @@
         estimated_place_bits      estimated_place: 0 <= numerator <= 2^bits
         refined_place_bits        the same for refined_place, whose bits fit one more word *)
 
-From Errbound Require Import FloatLibraries Format Widths.
+From Coq Require Import Reals ZArith Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Widths.
+Open Scope R_scope.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
 

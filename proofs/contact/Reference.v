@@ -4,8 +4,11 @@
             exactly
                                     if the features collide *)
 
-From Errbound Require Import Libraries RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
 From Errbound Require VertexEdge.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Reference.
 

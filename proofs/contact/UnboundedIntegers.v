@@ -7,8 +7,11 @@
         integer_contact_right   `vertex_touches_edge` is true exactly if vertex and edge meet in [0, 1]
         face_border_right, edges_border_right   `touches_at_border` is true exactly if they touch at the border *)
 
-From Errbound Require Import Libraries RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits.
 From Errbound Require VertexEdge.
+Import ListNotations.
+Open Scope R_scope.
 
 (** s is the sign of v. *)
 Definition tells (s : sign) (v : R) : Prop := s <> uncertain /\ sign_is_right s v.

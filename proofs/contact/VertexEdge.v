@@ -5,7 +5,10 @@
         nonpositive_at_a_root_right     b <= 0 at some root of f in (0, 1): there is a first one
         contact_right                   `vertex_touches_edge` is true exactly if vertex and edge meet in [0, 1] *)
 
-From Errbound Require Import Libraries Sign Bernstein Contact.
+From Coq Require Import Reals ZArith Lra Psatz List Bool.
+From Errbound Require Import Sign Bernstein Contact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Exact numbers *)
 

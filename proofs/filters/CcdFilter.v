@@ -7,7 +7,11 @@
         error_of_vertex_face_sound   the control values of the G_i are within error_of_g() of the exact ones
         error_of_edge_edge_sound     the same for edges, with a margin for halvings *)
 
-From Errbound Require Import FloatLibraries Format ErrorCount.
+From Coq Require Import Reals ZArith List Lia Lra Psatz.
+From Flocq Require Import Core.
+From Errbound Require Import Format ErrorCount.
+Import ListNotations.
+Open Scope R_scope.
 
 Notation p := 53%Z (only parsing).
 Notation emin := (-1074)%Z (only parsing).

@@ -7,7 +7,10 @@
         margins_face_apart, margins_edges_apart   consequences of control values beyond the margins, on the step or
                                                   a subinterval *)
 
-From Errbound Require Import Libraries Contact Distance Subdivision Separation FirstContact.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact Distance Subdivision Separation FirstContact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** At a time *)
 

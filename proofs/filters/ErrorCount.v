@@ -8,7 +8,10 @@
                        |value - exact| <= error eps unit + underflow eta W^(degree - 1)
         count_height   no count exceeds 2^height, a number that depends on the expression's shape *)
 
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz.
+From Flocq Require Import Core.
+From Errbound Require Import Format.
+Open Scope R_scope.
 
 (** Inputs come with M, a bound on their computed sizes; constants are whole. Converted is a converted difference of
     longer numbers (RoundedAxes.v, converted_difference_near). *)
@@ -490,14 +493,10 @@ Theorem count_height e : admissible e ->
   underflow (count e) <= pow2 (height e).
 Proof.
   change (admissible e -> below (height e) (count e)).
-  assert (S : forall x y, admissible x -> admissible y ->
-    below (height x) (count x) -> below (height y) (count y) ->
-    below (4 + Nat.max (height x) (height y)) (count_sum (count x) (count y))).
-  { intros x y A B X Y. apply sum_of_counts_below; auto using count_proper.
-    - apply below_more with (2 := X). lia.
-    - apply below_more with (2 := Y). lia. }
   induction e as [x M | a b M | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M];
     cbn [admissible height count].
+  4, 5: intros [A B]; apply sum_of_counts_below; auto using count_proper;
+    [apply below_more with (2 := IHx A) | apply below_more with (2 := IHy B)]; lia.
   - unfold below. simpl. lra.
   - unfold below. simpl. lra.
   - intros [_ C]. unfold below. cbn [magnitude error underflow].
@@ -505,8 +504,6 @@ Proof.
     rewrite <- abs_IZR. rewrite Z2Nat.id by apply Z.log2_up_nonneg.
     rewrite <- IZR_Zpower by apply Z.log2_up_nonneg. apply IZR_le. simpl (radix_val radix2).
     destruct (Z.eq_dec (Z.abs c) 1) as [-> | D]; [simpl; lia |]. apply Z.log2_up_spec. lia.
-  - intros [A B]. now apply S; auto.
-  - intros [A B]. now apply S; auto.
   - intros (A & B & _). apply product_of_counts_below; auto using count_proper.
   - auto.
   - unfold below. simpl. lra.
@@ -520,16 +517,13 @@ Lemma power_W_le m n : (m <= n)%nat -> W ^ m <= W ^ n.
 Proof. now apply Rle_pow. Qed.
 Lemma unit_power e : admissible e -> 0 <= unit e <= W ^ degree e.
 Proof.
-  assert (M : forall x y i j, 0 <= x <= W ^ i -> 0 <= y <= W ^ j ->
-                0 <= Rmax x y <= W ^ Nat.max i j).
-  { intros x y i j X Y. generalize (power_W_le i (Nat.max i j) ltac:(lia))
-      (power_W_le j (Nat.max i j) ltac:(lia)). unfold Rmax. destruct (Rle_dec x y); lra. }
   induction e as [x M0 | a b M0 | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M0]; simpl.
+  4, 5: intros [A B]; specialize (IHx A); specialize (IHy B);
+    generalize (power_W_le _ _ (Nat.le_max_l (degree x) (degree y))) (power_W_le _ _ (Nat.le_max_r (degree x) (degree y)));
+    unfold Rmax; destruct Rle_dec; lra.
   - intros [_ H]. generalize (Rabs_pos x). lra.
   - intros (_ & _ & H). generalize (Rabs_pos (fl (a - b))). lra.
   - lra.
-  - intros [A B]. auto.
-  - intros [A B]. auto.
   - intros (A & B & _). specialize (IHx A). specialize (IHy B). rewrite pow_add. split.
     + apply Rmult_le_pos; lra.
     + apply Rmult_le_compat; lra.
@@ -542,10 +536,7 @@ Proof.
   { unfold rounded. rewrite Rplus_0_l, (rnd_0 p emin nearest), Rmult_0_l.
     apply rnd_0. auto with typeclass_instances. }
   induction e as [x M0 | a b M0 | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M0]; simpl; auto;
-    try discriminate.
-  - intros [A B] D. rewrite IHx, IHy by (auto; lia). exact Z.
-  - intros [A B] D. rewrite IHx, IHy by (auto; lia). exact Z.
-  - intros (_ & _ & L) D. lia.
+    try discriminate; [.. | intros (_ & _ & L) D; lia]; intros [A B] D; now rewrite IHx, IHy by (auto; lia).
 Qed.
 
 (** v is near x: the property of count_sound. *)

@@ -23,7 +23,11 @@
         after_near                the rounded position at t_max is a double between both ends of the step, off by at
                                   most the computed error; to nearest *)
 
-From Errbound Require Import FloatLibraries Format Contact Decisions SeparatingAxis RoundedAxes.
+From Coq Require Import Reals ZArith List Lia Lra Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format Contact Decisions SeparatingAxis RoundedAxes.
+Import ListNotations.
+Open Scope R_scope.
 
 #[local] Instance float_precision : Prec_gt_0 24 := eq_refl.
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.

@@ -7,9 +7,12 @@
             an
                                overflow of a difference it is not usable *)
 
-From Flocq Require Import Mult_error.
-From Errbound Require Import FloatLibraries Format ErrorCount CcdFilter.
+From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
+From Flocq Require Import Core Mult_error.
+From Errbound Require Import Format ErrorCount CcdFilter.
 From Errbound Require Sign Bernstein Contact Decisions Subdivision SeparatingAxis.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The forms: those of Decisions.v *)
 

@@ -9,8 +9,11 @@
         orient3d_line_plane_sign_certain   11
         compare_x_line_line_sign_certain   10 *)
 
-From Errbound Require Import FloatLibraries Format Sign StaticFilter Predicates.
+From Coq Require Import Reals ZArith Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Sign StaticFilter Predicates.
 From Errbound Require BscCode.
+Open Scope R_scope.
 
 Notation times := BscCode.times_sign.
 

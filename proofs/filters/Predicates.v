@@ -9,7 +9,11 @@
         insphere_semi_static_certain   its semi-static filter, from 24 bits on
         power_incircle_scales, power_insphere_scales   scaling by the degrees of weighted points changes no sign *)
 
-From Errbound Require Import FloatLibraries Format Sign StaticFilter SemiStatic.
+From Coq Require Import Reals ZArith List Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Sign StaticFilter SemiStatic.
+Import ListNotations.
+Open Scope R_scope.
 
 (** A point as a function from index to coordinate. *)
 Definition point := nat -> R.

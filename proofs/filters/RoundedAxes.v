@@ -10,10 +10,26 @@
                                   differs by at most eps of itself or by eta
         swept_boxes_touch         rounded boxes that touch without a common end touch before rounding *)
 
-From Errbound Require Import FloatLibraries Format Contact Decisions SeparatingAxis.
+From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format Contact Decisions SeparatingAxis.
+Import ListNotations.
+Open Scope R_scope.
 
 #[local] Instance float_precision : Prec_gt_0 24 := eq_refl.
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
+
+(** A fold is beyond its start and all members if each step is beyond its member and what came before. *)
+Lemma fold_beyond {A} (f : R -> A -> R) (beyond : R -> A -> Prop) first others m :
+  (forall m q, beyond (f m q) q) -> (forall m q r, beyond m r -> beyond (f m q) r) -> beyond m first ->
+  forall q, In q (first :: others) -> beyond (fold_left f others m) q.
+Proof.
+  intros Own Kept. revert first m. induction others as [| r l IH]; intros first m M q; cbn [fold_left].
+  - now intros [<- | []].
+  - intros [<- | I]; [apply (IH first); [now apply Kept | now left] | now apply (IH r); [apply Own |]].
+Qed.
+Ltac beyond_all property := apply (fold_beyond _ property); intros; cbv beta in *; unfold Rmin, Rmax in *;
+  repeat destruct Rle_dec; lra.
 
 Section RoundedAxes.
 
@@ -400,23 +416,12 @@ Definition sweep (least : R -> R -> R) (coordinate : point -> R) (first : moving
 Notation low coordinate first others := (sweep Rmin coordinate first others).
 Notation high coordinate first others := (sweep Rmax coordinate first others).
 
-(** A fold is beyond its start and all members if each step is beyond its member and what came before. *)
-Lemma fold_beyond {A} (f : R -> A -> R) (beyond : R -> A -> Prop) first others m :
-  (forall m q, beyond (f m q) q) -> (forall m q r, beyond m r -> beyond (f m q) r) -> beyond m first ->
-  forall q, In q (first :: others) -> beyond (fold_left f others m) q.
-Proof.
-  intros Own Kept. revert first m. induction others as [| r l IH]; intros first m M q; cbn [fold_left].
-  - now intros [<- | []].
-  - intros [<- | I]; [apply (IH first); [now apply Kept | now left] | now apply (IH r); [apply Own |]].
-Qed.
-Ltac beyond_all property := unfold sweep; apply (fold_beyond _ property); intros; unfold Rmin, Rmax in *;
-  repeat destruct Rle_dec; lra.
 Lemma low_below coordinate first others q : In q (first :: others) ->
   low coordinate first others <= coordinate (start q) /\ low coordinate first others <= coordinate (finish q).
-Proof. beyond_all (fun r q => r <= coordinate (start q) /\ r <= coordinate (finish q)). Qed.
+Proof. unfold sweep. beyond_all (fun r q => r <= coordinate (start q) /\ r <= coordinate (finish q)). Qed.
 Lemma high_above coordinate first others q : In q (first :: others) ->
   coordinate (start q) <= high coordinate first others /\ coordinate (finish q) <= high coordinate first others.
-Proof. beyond_all (fun r q => coordinate (start q) <= r /\ coordinate (finish q) <= r). Qed.
+Proof. unfold sweep. beyond_all (fun r q => coordinate (start q) <= r /\ coordinate (finish q) <= r). Qed.
 
 Section Boxes.
 

@@ -7,8 +7,10 @@
         semi_static_sign_certain    the certain sign of the code is right
         semi_static_overflow_uncertain   also with a largest number and any overflow *)
 
-From Coq Require Import Classical_Prop.
-From Errbound Require Import FloatLibraries Format Sign StaticFilter.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
+From Flocq Require Import Core.
+From Errbound Require Import Format Sign StaticFilter.
+Open Scope R_scope.
 
 Section SemiStatic.
 
@@ -128,23 +130,12 @@ Proof. intros H. apply rnd_exact; auto using whole_number with typeclass_instanc
 Lemma masses e : measured e -> (1 <= whole_mass e)%Z /\ (0 <= whole_allowances e)%Z /\
   mass e = IZR (whole_mass e) /\ allowances e = IZR (whole_allowances e).
 Proof.
-  assert (S : forall x y, measured x -> measured y ->
-    (whole_mass x + whole_mass y <= 2 ^ p)%Z -> (whole_allowances x + whole_allowances y <= 2 ^ p)%Z ->
-    (1 <= whole_mass x)%Z /\ (0 <= whole_allowances x)%Z /\
-      mass x = IZR (whole_mass x) /\ allowances x = IZR (whole_allowances x) ->
-    (1 <= whole_mass y)%Z /\ (0 <= whole_allowances y)%Z /\
-      mass y = IZR (whole_mass y) /\ allowances y = IZR (whole_allowances y) ->
-    (1 <= whole_mass x + whole_mass y)%Z /\ (0 <= whole_allowances x + whole_allowances y)%Z /\
-    fl (mass x + mass y) = IZR (whole_mass x + whole_mass y) /\
-    fl (allowances x + allowances y) = IZR (whole_allowances x + whole_allowances y)).
-  { intros x y _ _ LM LA (X1 & X2 & -> & ->) (Y1 & Y2 & -> & ->). rewrite <- !plus_IZR.
-    rewrite !fl_whole by lia. repeat split; lia. }
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
     cbn [measured whole_mass whole_allowances mass allowances]; intros (LM & LA & H);
-    try (repeat split; reflexivity || lia).
+    try (repeat split; reflexivity || lia);
+    try (destruct H as (A & B & _); destruct (IHx A) as (X1 & X2 & -> & ->), (IHy B) as (Y1 & Y2 & -> & ->);
+         rewrite <- !plus_IZR, !fl_whole by lia; repeat split; lia).
   - repeat split; try lia. rewrite (fl_abs p emin), <- abs_IZR. apply fl_whole. lia.
-  - destruct H as (A & B & _). auto.
-  - destruct H as (A & B & _). auto.
   - destruct H as (A & B). destruct (IHx A) as (X1 & X2 & E1 & E2), (IHy B) as (Y1 & Y2 & E3 & E4).
     rewrite E1, E2, E3, E4. rewrite <- !mult_IZR.
     assert (0 <= whole_mass x * whole_allowances y)%Z by (apply Z.mul_nonneg_nonneg; lia).
@@ -181,32 +172,19 @@ Lemma measured_mass_covers_size e : measured e ->
      else (IZR (whole_allowances e) - 3 / 4) * tau + IZR (whole_allowances e) * tau * M ^ degree e).
 Proof.
   generalize tau_positive; intros T.
-  (* the sum, with or without allowances *)
-  assert (Sum : forall x y, measured x -> measured y -> degree x = degree y ->
-    exact_size x <= IZR (whole_mass x) * M ^ degree x +
-      (if (whole_allowances x =? 0)%Z then 0
-       else (IZR (whole_allowances x) - 3 / 4) * tau + IZR (whole_allowances x) * tau * M ^ degree x) ->
-    exact_size y <= IZR (whole_mass y) * M ^ degree y +
-      (if (whole_allowances y =? 0)%Z then 0
-       else (IZR (whole_allowances y) - 3 / 4) * tau + IZR (whole_allowances y) * tau * M ^ degree y) ->
-    exact_size x + exact_size y <= IZR (whole_mass x + whole_mass y) * M ^ degree x +
-      (if (whole_allowances x + whole_allowances y =? 0)%Z then 0
-       else (IZR (whole_allowances x + whole_allowances y) - 3 / 4) * tau +
-            IZR (whole_allowances x + whole_allowances y) * tau * M ^ degree x)).
-  { intros x y A B D X Y. rewrite <- D in Y. generalize (power_nonnegative (degree x)). intros P.
-    destruct (masses x A) as (_ & X2 & _), (masses y B) as (_ & Y2 & _).
-    rewrite !plus_IZR. set (a := whole_allowances x) in *. set (b := whole_allowances y) in *.
-    set (D' := M ^ degree x) in *.
-    destruct (Z.eqb_spec a 0) as [Ea | Ea], (Z.eqb_spec b 0) as [Eb | Eb],
-      (Z.eqb_spec (a + b) 0) as [Ec | Ec]; try lia; try rewrite Ea; try rewrite Eb; lra. }
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
     cbn [measured]; intros (LM & LA & H).
+  (* the sum or difference, with or without allowances *)
+  4, 5: destruct H as (A & B & D); specialize (IHx A); specialize (IHy B); rewrite <- D in IHy;
+    pose proof (power_nonnegative (degree x)); destruct (masses x A) as (_ & X2 & _), (masses y B) as (_ & Y2 & _);
+    cbn [StaticFilter.exact_size whole_mass whole_allowances degree]; rewrite !plus_IZR;
+    set (a := whole_allowances x) in *; set (b := whole_allowances y) in *; set (D' := M ^ degree x) in *;
+    destruct (Z.eqb_spec a 0) as [Ea | Ea], (Z.eqb_spec b 0) as [Eb | Eb], (Z.eqb_spec (a + b) 0) as [Ec | Ec];
+    try lia; try rewrite Ea in *; try rewrite Eb in *; lra.
   - simpl. lra.
   - simpl. lra.
   - cbn [StaticFilter.exact_size whole_mass whole_allowances degree]. simpl (0 =? 0)%Z. cbv iota.
     cbn [whole_mass] in LM. rewrite (fl_abs p emin), <- abs_IZR, fl_whole by lia. simpl. lra.
-  - destruct H as (A & B & D). cbn [StaticFilter.exact_size whole_mass whole_allowances degree]. auto.
-  - destruct H as (A & B & D). cbn [StaticFilter.exact_size whole_mass whole_allowances degree]. auto.
   - destruct H as (A & B). specialize (IHx A). specialize (IHy B).
     destruct (masses x A) as (X1 & X2 & _), (masses y B) as (Y1 & Y2 & _).
     cbn [StaticFilter.exact_size whole_mass whole_allowances degree].
@@ -651,35 +629,22 @@ Lemma trusted_measured e : homogeneous e -> constants_not_zero e = true ->
 Proof.
   assert (P2 : (1 < 2 ^ p)%Z).
   { unfold Prec_gt_0 in p_positive. change 1%Z with (2 ^ 0)%Z. apply Z.pow_lt_mono_r; lia. }
-  assert (S : forall x y, constants_not_zero x && constants_not_zero y = true ->
-    (constants_not_zero x = true -> mass x < IZR (2 ^ p) -> allowances x < IZR (2 ^ p) ->
-      measured x /\ (whole_mass x < 2 ^ p)%Z /\ (whole_allowances x < 2 ^ p)%Z) ->
-    (constants_not_zero y = true -> mass y < IZR (2 ^ p) -> allowances y < IZR (2 ^ p) ->
-      measured y /\ (whole_mass y < 2 ^ p)%Z /\ (whole_allowances y < 2 ^ p)%Z) ->
-    fl (mass x + mass y) < IZR (2 ^ p) -> fl (allowances x + allowances y) < IZR (2 ^ p) ->
-    measured x /\ measured y /\ (whole_mass x + whole_mass y < 2 ^ p)%Z /\
-    (whole_allowances x + whole_allowances y < 2 ^ p)%Z).
-  { intros x y C IHx IHy M2 A2. apply andb_prop in C. destruct C as (Cx & Cy).
-    destruct (mass_1 x Cx), (mass_1 y Cy), (number_mass x), (number_mass y).
-    assert (X1 : mass x <= fl (mass x + mass y)) by (apply part_of_sum; auto; lra).
-    assert (X2 : mass y <= fl (mass x + mass y)) by (rewrite Rplus_comm; apply part_of_sum; auto; lra).
-    assert (X3 : allowances x <= fl (allowances x + allowances y)) by (apply part_of_sum; auto).
-    assert (X4 : allowances y <= fl (allowances x + allowances y)) by (rewrite Rplus_comm;
-      apply part_of_sum; auto).
-    destruct (IHx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _), (IHy Cy ltac:(lra) ltac:(lra)) as (My & _ & _).
-    destruct (masses x Mx) as (U1 & U2 & E1 & E2), (masses y My) as (V1 & V2 & E3 & E4).
-    rewrite E1, E3, <- plus_IZR in M2. rewrite E2, E4, <- plus_IZR in A2.
-    apply fl_whole_below in M2, A2; try lia. tauto. }
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
     cbn [homogeneous constants_not_zero mass allowances measured whole_mass whole_allowances].
+  4, 5: intros (Hx & Hy & D) C M2 A2; apply andb_prop in C; destruct C as (Cx & Cy), (mass_1 x Cx), (mass_1 y Cy);
+    pose proof (number_mass x) as (Nx & Ax); pose proof (number_mass y) as (Ny & Ay);
+    assert (mass x <= fl (mass x + mass y) /\ mass y <= fl (mass x + mass y)) as (X1 & X2)
+      by (split; [| rewrite Rplus_comm]; apply part_of_sum; auto; lra);
+    assert (allowances x <= fl (allowances x + allowances y) /\ allowances y <= fl (allowances x + allowances y)) as (X3 & X4)
+      by (split; [| rewrite Rplus_comm]; apply part_of_sum; auto);
+    destruct (IHx Hx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _), (IHy Hy Cy ltac:(lra) ltac:(lra)) as (My & _ & _);
+    destruct (masses x Mx) as (U1 & U2 & E1 & E2), (masses y My) as (V1 & V2 & E3 & E4);
+    rewrite E1, E3, <- plus_IZR in M2; rewrite E2, E4, <- plus_IZR in A2;
+    apply fl_whole_below in M2, A2; try lia; repeat split; auto; lia.
   - intros H _ _ _. repeat split; auto; lia.
   - intros H _ _ _. repeat split; auto; lia.
   - intros _ C L _. apply negb_true_iff, Z.eqb_neq in C. rewrite (fl_abs p emin), <- abs_IZR in L.
     apply fl_whole_below in L; [| lia]. repeat split; auto; lia.
-  - intros (Hx & Hy & D) C M2 A2. destruct (S x y C (IHx Hx) (IHy Hy) M2 A2) as (Mx & My & L & K).
-    repeat split; auto; lia.
-  - intros (Hx & Hy & D) C M2 A2. destruct (S x y C (IHx Hx) (IHy Hy) M2 A2) as (Mx & My & L & K).
-    repeat split; auto; lia.
   - intros (Hx & Hy) C M2 A2. apply andb_prop in C. destruct C as (Cx & Cy).
     destruct (mass_1 x Cx), (mass_1 y Cy), (number_mass x), (number_mass y).
     assert (N : forall r, number (fl r)) by (intros; apply rnd_number; auto with typeclass_instances).

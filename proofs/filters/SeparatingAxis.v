@@ -5,7 +5,11 @@
             that
                                   cover the computed differences, do not collide *)
 
-From Errbound Require Import FloatLibraries Format Contact Decisions.
+From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format Contact Decisions.
+Import ListNotations.
+Open Scope R_scope.
 
 Notation p := 53%Z (only parsing).
 Notation emin := (-1074)%Z (only parsing).

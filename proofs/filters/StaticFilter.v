@@ -9,9 +9,10 @@
         size_covers_value     |value| <= size
         overflow_uncertain    also with a largest number: after an overflow no sign is certain *)
 
-From Coq Require Import Classical_Prop.
-From Flocq Require Import Plus_error.
-From Errbound Require Import FloatLibraries Format Sign.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
+From Flocq Require Import Core Plus_error.
+From Errbound Require Import Format Sign.
+Open Scope R_scope.
 
 Inductive expression :=
 | Coordinate (c : R)

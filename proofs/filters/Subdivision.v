@@ -5,7 +5,10 @@
         subdivision_separate   the answer "separate": wherever Y = 0 in [0, 1], some G is negative
         subdivision_collides   the answer "collides": Y = 0 and all G > 0 at some t in [0, 1] *)
 
-From Errbound Require Import Libraries Sign Bernstein.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Errbound Require Import Sign Bernstein.
+Import ListNotations.
+Open Scope R_scope.
 
 Inductive outcome := separate | collides | undecided.
 

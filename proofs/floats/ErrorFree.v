@@ -7,8 +7,10 @@
         two_product_fma_exact the same with fused multiply-add; from 2 bits on
         remainder_of_division_exact   the remainder a - q b, if the code reports that it is exact *)
 
-From Flocq Require Import Mult_error Sterbenz Pff2Flocq.
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz.
+From Flocq Require Import Core Mult_error Sterbenz Pff2Flocq.
+From Errbound Require Import Format.
+Open Scope R_scope.
 
 Section ErrorFree.
 

@@ -9,8 +9,9 @@
         eta = 2^emin      the smallest positive number
         smallest_normal = 2^(emin+p-1); its ulp, and that of all smaller numbers, is eta *)
 
-From Flocq Require Import Relative Plus_error Mult_error.
-From Errbound Require Import FloatLibraries.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core Relative Plus_error Mult_error.
+Open Scope R_scope.
 
 (** (1 + e)^k <= 1 + ke + (ke)^2 for ke <= 1. *)
 Lemma power_quadratic e n : 0 <= e -> INR n * e <= 1 ->

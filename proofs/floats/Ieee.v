@@ -5,10 +5,11 @@
     result is finite, nothing before overflowed, and the code computed the definitions over real numbers (Tight.v,
     ...). `nonnegative` means not below zero, but possibly infinite or NaN. *)
 
-From Flocq Require Export IEEE754.BinarySingleNaN.
-From Errbound Require Import FloatLibraries.
-From Errbound Require Export Code.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code.
 From Errbound Require Format.
+Open Scope R_scope.
 
 Notation finite x := (BinarySingleNaN.is_finite x = true).
 

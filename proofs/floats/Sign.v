@@ -4,7 +4,9 @@
             NaN). So
                        overflow, for which rules return such an error, gives uncertain signs *)
 
-From Errbound Require Import FloatLibraries.
+From Coq Require Import Reals Lra Bool.
+From Flocq Require Import Core.
+Open Scope R_scope.
 
 Inductive sign := negative | zero | positive | uncertain.
 

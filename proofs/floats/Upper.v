@@ -10,8 +10,10 @@
         sum_of_bounds_sound, sum_of_bounds_at_most   `sum_of_bounds` covers a sum of bounds, and is at most the
             bound with a factor for its roundings *)
 
-From Flocq Require Import Sterbenz.
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz.
+From Flocq Require Import Core Sterbenz.
+From Errbound Require Import Format.
+Open Scope R_scope.
 
 Section Upper.
 

@@ -8,7 +8,9 @@
                                 the result stands for the sum, difference and product
         bounded_sign_certain    sign_of is right or uncertain *)
 
-From Errbound Require Import FloatLibraries Sign.
+From Coq Require Import ZArith Reals Lia Lra Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Sign.
 Open Scope Z_scope.
 
 Notation pow2 := (bpow radix2).

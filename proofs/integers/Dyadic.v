@@ -4,7 +4,8 @@
         dyadic_in_units         in_units: x/2^unit
         dyadic_floor_log2       floor_log2 *)
 
-From Errbound Require Import FloatLibraries.
+From Coq Require Import Reals ZArith Lia Lra Bool.
+From Flocq Require Import Core.
 Open Scope Z_scope.
 
 Definition dyadic : Set := Z * Z.

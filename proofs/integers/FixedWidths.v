@@ -9,7 +9,9 @@
         halving_widths, bracket_widths   nor in halves of Y, nor with brackets of T = 1, ..., 4 words
         cut_widths             nor in rounded forms with T words, if only a bracket is known *)
 
-From Errbound Require Import Libraries Sign Bernstein Decisions Words.
+From Coq Require Import Reals ZArith List Lia Lra Bool.
+From Errbound Require Import Sign Bernstein Decisions Words.
+Import ListNotations.
 Open Scope Z_scope.
 
 (** A number with n words has a size of at most m 2^k; `Whole` has no fixed width. *)

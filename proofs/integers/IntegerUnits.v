@@ -4,7 +4,9 @@
                                     2^(64W - 1) units, even if the conversion wrapped around
         extent_bits_enough          coordinates of an axis differ by less than 2^bits units *)
 
-From Errbound Require Import FloatLibraries Format Words Widths.
+From Coq Require Import Reals ZArith List Lia Lra Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format Words Widths.
 From Errbound Require WordBits FixedWidths.
 Open Scope Z_scope.
 

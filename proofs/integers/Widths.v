@@ -10,7 +10,9 @@
         word_coordinates_exact, short_coordinates_exact   if word_coordinates or short_coordinates fit, they are the
                           coordinates *)
 
-From Errbound Require Import FloatLibraries Format Words.
+From Coq Require Import Reals ZArith List Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Words.
 Open Scope Z_scope.
 
 Inductive sized :=

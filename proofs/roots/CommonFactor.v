@@ -7,8 +7,9 @@
         chain_multiplicities  squarefree_chain: a root of multiplicity k is one of the first k polynomials
         vanishes_right        the polynomials' sign changes give these multiplicities *)
 
-From Coq Require Import Znumtheory Classical Wf_nat.
-From Errbound Require Import Libraries Sign Bernstein SignVariations RootIsolation.
+From Coq Require Import Reals ZArith Znumtheory Lia Lra List Classical Wf_nat.
+From Errbound Require Import Sign Bernstein SignVariations RootIsolation.
+Import ListNotations.
 Open Scope Z_scope.
 
 Definition coefficient (f : list Z) (i : nat) : Z := nth i f 0.

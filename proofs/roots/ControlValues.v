@@ -8,7 +8,11 @@
                                    fixed_row: errors, signs, halves
         weights_right, weights_fit  inverse_binomials, which fit in 64 bits *)
 
-From Errbound Require Import FloatLibraries Sign Bernstein VertexEdge SignVariations RootIsolation.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein VertexEdge SignVariations RootIsolation.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Kioustelidis' bound *)
 

@@ -9,7 +9,11 @@
         row_signs_of_coefficients   the signs of a fixed_row of them
         surely_rootless_right, low_end_right, high_end_right   no root on [0, 1], at 0, at 1 *)
 
-From Errbound Require Import FloatLibraries Sign Bernstein SignVariations RootIsolation ControlValues.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein SignVariations RootIsolation ControlValues.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The meaning of the integers *)
 

@@ -7,7 +7,9 @@
         near_widened     a coarser unit, if only the error is left
         near_sign        the sign, if the value exceeds the error *)
 
-From Errbound Require Import FloatLibraries.
+From Coq Require Import Reals ZArith Lia Lra Psatz.
+From Flocq Require Import Core.
+Open Scope R_scope.
 
 Notation two := (bpow radix2).
 

@@ -6,10 +6,12 @@
         bsc_exact_face_by_isolation, bsc_exact_edges_by_isolation   the decisions are right with any functions that
                                  return results of the algorithms for the polynomials of the query *)
 
-From Coq Require Import Sorted.
-From Errbound Require Import Libraries RootIsolation ControlValues CommonFactor Sign Contact UnboundedIntegers Reference
-  BscExact.
+From Coq Require Import Reals ZArith Lia Lra List Sorted.
+From Errbound Require Import RootIsolation ControlValues CommonFactor.
+From Errbound Require Import Sign Contact UnboundedIntegers Reference BscExact.
 From Errbound Require BoundedInteger.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The chain's first polynomial, in integers *)
 

@@ -9,8 +9,10 @@
         sign_at_root_right   the sign of g at a root of a square-free polynomial
         squarefree_part_roots, real_roots_right   the roots of p in (0, oo), by those of its square-free part *)
 
-From Coq Require Import Sorted.
-From Errbound Require Import Libraries Sign Bernstein SignVariations.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Sorted.
+From Errbound Require Import Sign Bernstein SignVariations.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Polynomials *)
 

@@ -8,7 +8,10 @@
         max_variations_right     the count of uncertain signs is not below the true number if it is below 3, and both
                                  are even or both odd *)
 
-From Errbound Require Import Libraries Sign Bernstein.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Errbound Require Import Sign Bernstein.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The code: signs are 1, -1 and 0 *)
 

@@ -4,7 +4,11 @@
         error_bits_right    error_bits: C(n + 1, j + 1) (width/low)^j is at most 2^error_bits
         taylor_right        the constructor: the hypotheses of LocalForm.v on the integers and their error *)
 
-From Errbound Require Import FloatLibraries Sign Bernstein SignVariations RootIsolation ControlValues LocalForm.
+From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein SignVariations RootIsolation ControlValues LocalForm.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Rounded numbers: mantissa 2^exponent *)
 

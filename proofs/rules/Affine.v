@@ -10,8 +10,12 @@
     theorems prove that a number of f exists for which the result is right. Without sources (None) that error goes to
     the rest. *)
 
-From Errbound Require Import FloatLibraries Format ErrorFree Upper.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
+From Flocq Require Import Core.
+From Errbound Require Import Format ErrorFree Upper.
 From Errbound Require Residual.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Affine.
 

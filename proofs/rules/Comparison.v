@@ -5,7 +5,8 @@
                                B >= |v|/(1 - eps) for every number v of the expression
         tight_may_exceed_safe  it does not hold if only B = |a|: a = b = 1 is a counterexample *)
 
-From Errbound Require Import Libraries.
+From Coq Require Import Reals Lra Lia Psatz.
+Open Scope R_scope.
 
 Section Comparison.
 

@@ -7,8 +7,12 @@
     direction, from p = 5 on:
         tight_keeps, tight_horner_sound *)
 
-From Errbound Require Import FloatLibraries Code CompoundCode DotProduct.
+From Coq Require Import Reals ZArith Lia Lra Bool List.
+From Flocq Require Import Core.
+From Errbound Require Import Code CompoundCode DotProduct.
 From Errbound Require Format Tight Upper.
+Import ListNotations.
+Open Scope R_scope.
 
 Lemma Forall2_rev {X Y} (P : X -> Y -> Prop) l m : Forall2 P l m -> Forall2 P (rev l) (rev m).
 Proof. induction 1; simpl; auto. apply Forall2_app; auto. Qed.

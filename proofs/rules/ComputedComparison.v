@@ -8,9 +8,11 @@
         computed_tight_may_exceed     s <= e does not hold: 1 + 0 + ... + 0, with 50 zeros and 8 bits
         underflowed_tight_exceeds     nor after one operation if it underflows: eta eta *)
 
-From Flocq Require Import IEEE754.BinarySingleNaN.
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Format.
 From Errbound Require Code Ieee Tight Safe Upper.
+Open Scope R_scope.
 
 Section Computed.
 

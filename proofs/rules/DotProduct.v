@@ -8,8 +8,12 @@
         sharp_dot_sound   to nearest, ties to even, from 5 bits on, the least with such bounds in the code; u is a
                           number (emin <= -p) *)
 
-From Errbound Require Import FloatLibraries Code CompoundCode.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
+From Flocq Require Import Core.
+From Errbound Require Import Code CompoundCode.
 From Errbound Require Format Tight Sharp.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Rounded.
 

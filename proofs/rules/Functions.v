@@ -9,9 +9,11 @@
                                                 to nearest, ties to even, from 3 bits on
         hypot_sound_nearest                     to nearest, ties to even, from 8 bits on *)
 
-From Flocq Require Import Mult_error.
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core Mult_error.
+From Errbound Require Import Format.
 From Errbound Require Tight.
+Open Scope R_scope.
 
 (** The inherited error for arguments with an error of at most e; x is not negative, since a >= e. *)
 Lemma root_inherits a x e : 0 < e <= a -> Rabs (a - x) <= e ->

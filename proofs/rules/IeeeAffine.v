@@ -10,8 +10,12 @@
         affine_error_known   the radius is an error, in the sense of IeeeRules.v
         affine_known_stays   bounds still hold if other sources get other numbers *)
 
-From Errbound Require Import FloatLibraries Ieee CompoundCode AffineCode IeeeRules.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code CompoundCode AffineCode Ieee IeeeRules.
 From Errbound Require Format ErrorFree Residual Upper Affine IeeeInterval IeeeResidual.
+Import ListNotations.
+Open Scope R_scope.
 
 (** A list whose items are processed one after the other. If the result is good, all items were, and the result
     stands for the processed real items. *)

@@ -11,9 +11,13 @@
             `gives l k m r`: from numbers of l, after k operations, m computes a number that stands for r
         gives_known, gives_error   it is known by an assignment as in next_known, and its radius is an error *)
 
-From Errbound Require Import FloatLibraries Ieee CompoundCode AffineCode NumberedCode IeeeRules IeeeAffine IeeeFunctions
+From Coq Require Import Reals ZArith Lia Lra Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code CompoundCode AffineCode NumberedCode Ieee IeeeRules IeeeAffine IeeeFunctions
   IeeeCompound.
 From Errbound Require Format Tight Functions Affine DotProduct Compound.
+Import ListNotations.
+Open Scope R_scope.
 
 (** A result's sources are those of its operands, and its own. *)
 Section Sources.

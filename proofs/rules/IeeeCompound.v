@@ -8,8 +8,12 @@
         midpoint_known, pow_known, dot_known, horner_known, lerp_known, copysign_known, and from p = 8 on hypot_known
                           by such a rule, the bound that the code returns holds for functions of known numbers *)
 
-From Errbound Require Import FloatLibraries Ieee CompoundCode IeeeRules IeeeFunctions DotProduct Compound.
+From Coq Require Import Reals ZArith Lia Lra Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code CompoundCode Ieee IeeeRules IeeeFunctions DotProduct Compound.
 From Errbound Require Format Tight Functions IeeeSafe IeeeInterval IeeeResidual.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Compound.
 

@@ -4,8 +4,12 @@
         tight_dot_known   from p = 8 on, the bound that the code returns under `tight` holds for the dot product
         sharp_dot_known   from p = 5 on, that under `sharp` holds *)
 
-From Errbound Require Import FloatLibraries Ieee CompoundCode IeeeRules DotProduct.
+From Coq Require Import Reals ZArith Lia Lra Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code CompoundCode Ieee IeeeRules DotProduct.
 From Errbound Require Format Tight Sharp.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Dot.
 

@@ -8,8 +8,11 @@
             of
             known numbers; if the error of a square root is finite, its argument is not negative *)
 
-From Errbound Require Import FloatLibraries Ieee IeeeRules.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code Ieee IeeeRules.
 From Errbound Require Format Tight Functions IeeeSafe IeeeInterval IeeeResidual.
+Open Scope R_scope.
 
 Section Functions.
 

@@ -10,9 +10,11 @@
         product_known, remainder_known   results that product_error_is_exact and remainder_of_division_exact call
                               exact are, even after an overflow *)
 
-From Flocq Require Import Sterbenz.
-From Errbound Require Import FloatLibraries Ieee IeeeRules.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN Sterbenz.
+From Errbound Require Import Code Ieee IeeeRules.
 From Errbound Require Format Interval ErrorFree Tight.
+Open Scope R_scope.
 
 Section Rules.
 

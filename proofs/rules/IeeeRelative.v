@@ -12,9 +12,12 @@
             IeeeCompound.v), and
             dot products by the rule's dot_bound *)
 
-From Errbound Require Import FloatLibraries Ieee CompoundCode RelativeCode IeeeRules IeeeFunctions IeeeCompound
-  DotProduct.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code CompoundCode RelativeCode Ieee IeeeRules IeeeFunctions IeeeCompound DotProduct.
 From Errbound Require Format ErrorFree Upper Tight IeeeInterval Relative.
+Import ListNotations.
+Open Scope R_scope.
 
 (** Facts about one format. *)
 Section Format.

@@ -11,8 +11,11 @@
         residual_error_known   the error is one, in the sense of IeeeRules.v
         residual_sign_known    the rule's sign is right or uncertain *)
 
-From Errbound Require Import FloatLibraries Ieee IeeeRules.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code Ieee IeeeRules.
 From Errbound Require Format Residual ResidualProduct ErrorFree IeeeInterval.
+Open Scope R_scope.
 
 Section Rules.
 

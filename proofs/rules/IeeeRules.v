@@ -11,8 +11,11 @@
         sign_of_known, none_guesses   the default sign is right or uncertain, except under the rule none
                              (emax > p makes u a number of the format) *)
 
-From Errbound Require Import FloatLibraries Ieee.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code Ieee.
 From Errbound Require Format Tight Sharp Upper.
+Open Scope R_scope.
 
 Section Rules.
 

@@ -8,8 +8,11 @@
         safe_error_known   a finite error bounds |a - x|, and a is finite; from 2^29 operations on the error is never
                            finite (IeeeRules.v: `known`, and so the sign) *)
 
-From Errbound Require Import FloatLibraries Ieee IeeeRules.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code Ieee IeeeRules.
 From Errbound Require Format Safe Tight.
+Open Scope R_scope.
 
 Section Rules.
 

@@ -9,9 +9,13 @@
         affine_slope_sqrt_gives, affine_slope_fma_gives    for `affine`, with a source for each operation, from p = 4
                                                            on (IeeeAffineFunctions.v) *)
 
-From Errbound Require Import FloatLibraries Ieee CompoundCode AffineCode NumberedCode SlopeCode IeeeRules IeeeFunctions
-  IeeeCompound IeeeAffine IeeeAffineFunctions.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code CompoundCode AffineCode NumberedCode SlopeCode Ieee IeeeRules IeeeFunctions IeeeCompound
+  IeeeAffine IeeeAffineFunctions.
 From Errbound Require Format ErrorFree IeeeInterval IeeeResidual Affine.
+Import ListNotations.
+Open Scope R_scope.
 
 (** Over real numbers. *)
 Section Remainder.

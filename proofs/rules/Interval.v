@@ -3,7 +3,10 @@
 
     Results: below_true, above_true   a step from the rounded t, or from beyond it, reaches t or passes it *)
 
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format.
+Open Scope R_scope.
 
 Section Outward.
 

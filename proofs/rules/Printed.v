@@ -5,7 +5,10 @@
         printed_product_lost    the bound of a product that underflows is wrong
         printed_sum_rounded     so is that of a sum whose bound is rounded *)
 
-From Errbound Require Import FloatLibraries Format Sign Comparison.
+From Coq Require Import Reals ZArith Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Sign Comparison.
+Open Scope R_scope.
 
 Section Printed.
 

@@ -10,8 +10,11 @@
         relative_error_sound   the returned error is a bound
         relative_sign_sound    the sign is right or uncertain *)
 
-From Errbound Require Import FloatLibraries Format ErrorFree Upper.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format ErrorFree Upper.
 From Errbound Require Code.
+Open Scope R_scope.
 
 (** Two inequalities, each by the derivative of a difference that is 0 at 0. *)
 Lemma not_below_start f f' b :

@@ -9,8 +9,11 @@
         residual_error_sound   the returned error is a bound
         residual_sign_sound    the sign is right or uncertain *)
 
-From Errbound Require Import FloatLibraries Format ErrorFree.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format ErrorFree.
 From Errbound Require Code Upper.
+Open Scope R_scope.
 
 Section Residual.
 
@@ -93,7 +96,12 @@ Proof.
 Qed.
 Lemma rounding_sum x y : number x -> number y ->
   Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
-Proof. apply (sum_relative_to_result p emin). Qed.
+Proof.
+  intros X Y. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [S | S].
+  - rewrite (sum_exact_below p emin nearest) by auto. replace (x + y - (x + y)) with 0 by ring.
+    rewrite Rabs_R0. apply Rmult_le_pos; [generalize u_8; lra | apply Rabs_pos].
+  - exact (nearest_relative_to_result p emin _ S).
+Qed.
 Lemma sum_lower x y : number x -> number y -> 0 <= x -> 0 <= y -> x + y <= fl (x + y) * (1 + u).
 Proof.
   intros X Y PX PY. generalize (rounding_sum x y X Y).

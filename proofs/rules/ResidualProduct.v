@@ -5,7 +5,10 @@
         residual_multiply_sound   |fl(a b) + c - x y| <= r for the returned c, r
         residual_divide_sound     |fl(a / b) + c - x / y| <= r, and y is not zero *)
 
-From Errbound Require Import FloatLibraries Format Residual.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format Residual.
+Open Scope R_scope.
 
 (** Bounds of absolute values. *)
 Lemma within_plus [s t S T] : Rabs s <= S -> Rabs t <= T -> Rabs (s + t) <= S + T.

@@ -7,8 +7,10 @@
         safe_scale_sound   the bound that the code returns holds
         safe_error_sound   the error that the code reports is a bound *)
 
-From Flocq Require Import Mult_error.
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core Mult_error.
+From Errbound Require Import Format.
+Open Scope R_scope.
 
 Section Safe.
 

@@ -4,8 +4,11 @@
     A number x has a value a and a bound sa, |a - x| <= sa. Results:
         sharp_add_sound, sharp_subtract_sound, sharp_multiply_sound, sharp_divide_sound, sharp_scale_sound *)
 
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format.
 From Errbound Require Tight Upper.
+Open Scope R_scope.
 
 Section Sharp.
 

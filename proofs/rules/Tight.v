@@ -10,8 +10,11 @@
         tight_exact_sound, tight_within_sound   exact numbers, and numbers within a given error
         tight_add_number, tight_multiply_number, tight_divide_number   the bound is a number of the format *)
 
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format.
 From Errbound Require Upper.
+Open Scope R_scope.
 
 (** Errors of negations, of sums, and by an intermediate value. *)
 Lemma within_opp b y s : Rabs (b - y) <= s -> Rabs (- b - - y) <= s.

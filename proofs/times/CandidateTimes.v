@@ -6,8 +6,10 @@
         vertices_time_of, vertex_edge_time_of, face_planar_time_of, edges_planar_time_of   for contact
         vertices_near_time_of, vertex_edge_near_time_of, face_near_time_of, edges_near_time_of   for a distance *)
 
-From Errbound Require Import Libraries Contact Distance Separation FirstContact FirstConditions TimeBrackets
-  IntegerTimes.
+From Coq Require Import Reals Lra List.
+From Errbound Require Import Contact Distance Separation FirstContact FirstConditions TimeBrackets IntegerTimes.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Doubles.
 

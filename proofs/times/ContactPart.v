@@ -9,8 +9,10 @@
                                   this one
         face_part_bracket, edges_part_bracket    the bracket of this root is that of the first contact *)
 
-From Errbound Require Import Libraries Sign Bernstein VertexEdge CubicRoots Subdivision Contact Separation FirstContact
-  TimeBrackets.
+From Coq Require Import Reals Lia Lra Psatz List Bool.
+From Errbound Require Import Sign Bernstein VertexEdge CubicRoots Subdivision Contact Separation FirstContact TimeBrackets.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** One root *)
 

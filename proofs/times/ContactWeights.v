@@ -3,7 +3,11 @@
 
     Result: weights_right   each is in [0, 1] and differs by at most `weight_error` *)
 
-From Errbound Require Import FloatLibraries Format.
+From Coq Require Import Reals ZArith Lia Lra List.
+From Flocq Require Import Core.
+From Errbound Require Import Format.
+Import ListNotations.
+Open Scope R_scope.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
 Notation fl := (rnd 53 (-1074) nearest).

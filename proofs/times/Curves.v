@@ -6,7 +6,9 @@
         face_curves_closed, edges_curves_closed, face_curves_first, edges_curves_first   times of contact are closed
         smooth_continuous    paths are continuous if their coordinates are, like polynomials *)
 
-From Errbound Require Import Libraries Contact Distance Separation FirstContact.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact Distance Separation FirstContact.
+Open Scope R_scope.
 
 Definition closed_times (H : R -> Prop) : Prop :=
   forall s, ~ H s -> exists e, 0 < e /\ forall t, Rabs (t - s) < e -> ~ H t.

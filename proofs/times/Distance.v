@@ -7,7 +7,10 @@
         vertex_edge_within, face_within_union, edges_within_union   within d exactly if a condition holds
         vertex_edge_distance, face_distance, edges_distance         there is a least distance *)
 
-From Errbound Require Import Libraries Contact.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Conditions *)
 

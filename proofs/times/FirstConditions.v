@@ -6,7 +6,10 @@
         vertices_near_candidate, vertex_edge_near_candidate, face_near_candidate, edges_near_candidate   for a
                                distance *)
 
-From Errbound Require Import Libraries Contact Distance Separation FirstContact.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact Distance Separation FirstContact.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Conditions: ccd/contact/condition.hpp *)
 

@@ -6,7 +6,10 @@
         face_planar, edges_planar   if Y = 0 up to a contact, there was one inside at t = 0 or at the border since
         face_planar_first, edges_planar_first    so the first contact is at t = 0 or at the border *)
 
-From Errbound Require Import Libraries Contact Distance Separation.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact Distance Separation.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Necessary conditions *)
 

@@ -7,7 +7,11 @@
             contact
         format_bracketed      every number has a bracket between numbers of a floating-point format *)
 
-From Errbound Require Import FloatLibraries Subdivision Contact Separation FirstContact TimeBrackets.
+From Coq Require Import Reals ZArith Lra List.
+From Flocq Require Import Core.
+From Errbound Require Import Subdivision Contact Separation FirstContact TimeBrackets.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Doubles.
 

@@ -11,9 +11,12 @@
         face_time_right, edges_time_right   first_contact is right
         doubles_suffice       doubles have the properties that these theorems need *)
 
-From Coq Require Import Classical.
-From Errbound Require Import FloatLibraries Sign Bernstein VertexEdge CubicRoots Subdivision Contact Decisions AxisUnits
-  InteriorContact Separation FirstContact TimeBrackets VertexEdgeTime IntegerTimes TimeSearch.
+From Coq Require Import Reals ZArith Lia Lra List Bool Classical.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein VertexEdge CubicRoots Subdivision Contact Decisions AxisUnits InteriorContact.
+From Errbound Require Import Separation FirstContact TimeBrackets VertexEdgeTime IntegerTimes TimeSearch.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Query.
 

@@ -11,7 +11,11 @@
             than d times its length are farther apart than d throughout
         coordinates_apart         the same for the code's rounded differences of coordinates *)
 
-From Errbound Require Import FloatLibraries Contact Distance.
+From Coq Require Import Reals ZArith Lra Psatz List.
+From Flocq Require Import Core.
+From Errbound Require Import Contact Distance.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** Length *)
 

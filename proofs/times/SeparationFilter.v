@@ -6,8 +6,12 @@
         separated_part       so `separated` on a subinterval of the step gives an axis as in Separation.v
         axis_length, distance_rounded, size_rounded   the operands *)
 
-From Errbound Require Import FloatLibraries Contact Distance Separation Format.
+From Coq Require Import Reals ZArith Lia Lra Psatz List.
+From Flocq Require Import Core.
+From Errbound Require Import Contact Distance Separation Format.
 From Errbound Require RoundedAxes.
+Import ListNotations.
+Open Scope R_scope.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
 Notation fl := (rnd 53 (-1074) nearest).
@@ -228,8 +232,8 @@ Lemma gap_of_pair p ps q qs t m n : In m (p :: ps) -> In n (q :: qs) -> gap p ps
 Proof.
   intros M N. apply (in_map (at_ t)) in M, N. unfold gap. apply rnd_le; auto with typeclass_instances.
   apply Rplus_le_compat; [| apply Ropp_le_contravar].
-  - revert N. apply (RoundedAxes.fold_beyond Rmin (fun r e => r <= e)); intros; unfold Rmin; try destruct Rle_dec; lra.
-  - revert M. apply (RoundedAxes.fold_beyond Rmax (fun r e => e <= r)); intros; unfold Rmax; try destruct Rle_dec; lra.
+  - revert N. apply (RoundedAxes.fold_beyond Rmin (fun r e => r <= e)); intros; cbv beta; unfold Rmin; try destruct Rle_dec; lra.
+  - revert M. apply (RoundedAxes.fold_beyond Rmax (fun r e => e <= r)); intros; cbv beta; unfold Rmax; try destruct Rle_dec; lra.
 Qed.
 Theorem separated_part p ps q qs low high : Forall right (p :: ps) -> Forall right (q :: qs) -> 0 <= low <= 1 -> 0 <= high <= 1 ->
   above < gap p ps q qs low -> above < gap p ps q qs high ->

@@ -8,7 +8,10 @@
         linear_bracket_right, quadratic_only_right, quadratic_first_right, quadratic_second_right
                               brackets of roots of linear and quadratic forms *)
 
-From Errbound Require Import Libraries Contact VertexEdge Separation.
+From Coq Require Import Reals Lra Psatz List.
+From Errbound Require Import Contact VertexEdge Separation.
+Import ListNotations.
+Open Scope R_scope.
 
 Section Doubles.
 

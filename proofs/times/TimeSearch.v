@@ -6,8 +6,11 @@
         search_widths         the polynomial's values fit the words of their type
         first_root_widths     so do the numbers of first_root_nonpositive and of bracket_of_quadratic_root *)
 
-From Errbound Require Import FloatLibraries Sign Bernstein VertexEdge CubicRoots TimeBrackets Decisions Words
-  FixedWidths.
+From Coq Require Import Reals ZArith Lia Lra List Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Sign Bernstein VertexEdge CubicRoots TimeBrackets Decisions Words FixedWidths.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** The loop *)
 

@@ -8,8 +8,11 @@
         root_reached            signs of Y before and after t: the first of two roots is within reach
         bracket_around          its bracket, by signs at adjacent doubles *)
 
-From Errbound Require Import FloatLibraries Bernstein CubicRoots Subdivision Contact Separation TimeBrackets Format
-  Twofold.
+From Coq Require Import Reals ZArith Lia Lra Psatz List.
+From Flocq Require Import Core.
+From Errbound Require Import Bernstein CubicRoots Subdivision Contact Separation TimeBrackets Format Twofold.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** De Casteljau *)
 

@@ -7,7 +7,11 @@
         difference_exact     differences of coordinates are exact
         y_near, time_stage_sign, error_enough   if the value exceeds error(), Y has its sign *)
 
-From Errbound Require Import FloatLibraries Format ErrorFree.
+From Coq Require Import Reals ZArith Lia Lra Psatz List.
+From Flocq Require Import Core.
+From Errbound Require Import Format ErrorFree.
+Import ListNotations.
+Open Scope R_scope.
 
 #[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
 Notation fl := (rnd 53 (-1074) nearest).

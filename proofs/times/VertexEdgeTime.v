@@ -5,7 +5,10 @@
         first_bracket_right   the bracket of its result is that of the first contact
         vertices_time_right   the same for `first_vertex_vertex_contact` *)
 
-From Errbound Require Import Libraries Sign Bernstein Contact VertexEdge Separation FirstContact TimeBrackets.
+From Coq Require Import Reals Lra Psatz List Bool.
+From Errbound Require Import Sign Bernstein Contact VertexEdge Separation FirstContact TimeBrackets.
+Import ListNotations.
+Open Scope R_scope.
 
 (** ** first_root_nonpositive *)
 
