@@ -18,7 +18,7 @@ namespace ccd::lab {
 /// A table of a report, and the name of its CSV file.
 struct section {
     std::string name;
-    std::vector<std::string> columns;
+    std::vector<std::string> columns;  ///< empty: all
 };
 /// Returns the sections methods, times, contacts, bounds, tightness and stress.
 const std::vector<section>& sections();

@@ -208,21 +208,6 @@ TEST_F(Report, FirstContactsAreInBracketsOfTwoNeighbours) {
         lab::find_contacts(*data, kind::edge_edge, lab::sizes(true), 1, [](double) {}).empty());
 }
 
-TEST_F(Report, FirstContactsOfStressAreOfBothKinds) {
-    lab::sample_sizes few = lab::sizes(true);
-    few.repeats = 1;
-    for (const lab::family& family : lab::families()) {
-        if (family.name != "touch-start" && family.name != "double-root") continue;
-        const auto data = lab::data_of(family, 2, 1);
-        for (const kind which : ccd::stored_kinds) {
-            const row r = lab::find_contacts(*data, which, few, 1, [](double) {}).at(0);
-            EXPECT_EQ(r["queries"], 2 * family.knobs.size());
-            EXPECT_GT(r["contacts"], 0);
-            EXPECT_FALSE(r.contains("broken")) << r;
-        }
-    }
-}
-
 TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {
     write("vf/1.csv", std::string(hit) + miss);
     const auto data = load();
