@@ -3,6 +3,7 @@
 #include <cctype>
 #include <ctime>
 #include <errbound/support/error.hpp>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -31,6 +32,32 @@ std::string now() {
     std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", std::gmtime(&seconds));
     return text;
 }
+
+/// A unit of measurement, kept in a file so that a stopped report continues.
+struct part {
+    std::string name;
+    row depends_on;       ///< all that its rows depend on
+    std::string section;  ///< "speeds" are joined to the rows of "methods"
+    double cost;          ///< roughly, in microseconds
+    row about;            ///< columns that its rows begin with
+    std::function<rows(const progress&)> measure;
+
+    fs::path file_in(const fs::path& folder) const {
+        // Legible, and yet different for names that differ in other characters only.
+        std::string file = name;
+        for (char& c : file)
+            if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
+        return folder / (file.substr(0, 100) + "-" + fingerprint_of(name).substr(0, 8) + ".json");
+    }
+    /// The rows, if the folder has the part's file, undamaged and with the same dependencies.
+    std::optional<rows> stored_in(const fs::path& folder) const {
+        const fs::path path = file_in(folder);
+        std::error_code error;
+        if (!fs::is_regular_file(path, error)) return std::nullopt;
+        const std::optional<row> kept = kept_value(read_whole(path), depends_on);
+        return kept && kept->is_array() ? std::optional(kept->get<rows>()) : std::nullopt;
+    }
+};
 
 /// The parts of a report, in the order of measurement. Keeps references to the list and the data.
 class part_list {
@@ -197,7 +224,7 @@ void measure(const std::vector<part>& parts, report_summary& report, const show_
     std::vector<std::optional<rows>> results;
     for (const part& p : parts) {
         all_costs += p.cost;
-        results.push_back(stored_part(folder, p));
+        results.push_back(p.stored_in(folder));
         if (results.back()) done += p.cost;
         report.resumed += results.back().has_value();
     }
@@ -212,7 +239,7 @@ void measure(const std::vector<part>& parts, report_summary& report, const show_
             };
             show_share(0);
             results[i] = p.measure(show_share);
-            store_part(folder, p, *results[i]);
+            write_whole(p.file_in(folder), kept_text(p.depends_on, *results[i]));
             done += p.cost;
         }
         for (const row& r : *results[i]) {
@@ -328,7 +355,10 @@ void write_tables(report_summary& report) {
         std::error_code ignored;
         fs::remove(path, ignored);
         const rows& table = report.tables[s.name];
-        if (!table.empty()) write_whole(path, csv_of(s.columns, table));
+        if (table.empty()) continue;
+        write_whole(
+            path,
+            csv_of(s.columns.empty() ? errbound::support::columns_of(table) : s.columns, table));
     }
 }
 
@@ -387,33 +417,10 @@ const std::vector<section>& sections() {
                     "q50",          "q75",          "q99",          "q100",         "relative_q0",
                     "relative_q1",  "relative_q25", "relative_q50", "relative_q75", "relative_q99",
                     "relative_q100"}},
-        {"tightness",
-         {"part", "rule", "number", "quantity", "measure", "count", "exact", "unknown", "claimed",
-          "observed", "q0", "q1", "q25", "q50", "q75", "q99", "q100", "clamped"}},
+        {"tightness", {}},
         {"stress", stress_columns},
     };
     return all;
-}
-
-fs::path path_of_part(const fs::path& folder, const std::string& name) {
-    // Legible, and yet different for names that differ in other characters only.
-    std::string file = name;
-    for (char& c : file)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
-    return folder / (file.substr(0, 100) + "-" + fingerprint_of(name).substr(0, 8) + ".json");
-}
-
-std::optional<rows> stored_part(const fs::path& folder, const part& p) {
-    const fs::path path = path_of_part(folder, p.name);
-    std::error_code error;
-    if (!fs::is_regular_file(path, error)) return std::nullopt;
-    const std::optional<row> kept = kept_value(read_whole(path), p.depends_on);
-    if (!kept || !kept->is_array()) return std::nullopt;
-    return kept->get<rows>();
-}
-
-void store_part(const fs::path& folder, const part& p, const rows& measured) {
-    write_whole(path_of_part(folder, p.name), kept_text(p.depends_on, measured));
 }
 
 rows totals(const rows& methods, const std::function<bool(const row&)>& counts) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +17,7 @@ namespace ccd::lab {
 /// A table of a report, and the name of its CSV file.
 struct section {
     std::string name;
-    std::vector<std::string> columns;
+    std::vector<std::string> columns;  ///< empty: all
 };
 /// Returns the sections methods, times, contacts, bounds, tightness and stress.
 const std::vector<section>& sections();
@@ -39,23 +38,6 @@ struct report_options {
 };
 
 using progress = std::function<void(double)>;
-
-/// A unit of measurement, kept in a file so that a stopped report continues.
-struct part {
-    std::string name;
-    row depends_on;       ///< all that its rows depend on
-    std::string section;  ///< "speeds" are joined to the rows of "methods"
-    double cost;          ///< roughly, in microseconds
-    row about;            ///< columns that its rows begin with
-    std::function<rows(const progress&)> measure;
-};
-
-/// The file of a part of that name.
-std::filesystem::path path_of_part(const std::filesystem::path& folder, const std::string& name);
-/// The part's rows, if the folder has its file, undamaged and with the same dependencies.
-std::optional<rows> stored_part(const std::filesystem::path& folder, const part& p);
-/// Writes the part, whole or not at all. Throws errbound::support::file_error.
-void store_part(const std::filesystem::path& folder, const part& p, const rows& measured);
 
 struct picture {
     std::string file, caption;

@@ -5,7 +5,6 @@
 #include <ccd/batch.hpp>
 #include <ccd/reference.hpp>
 #include <cmath>
-#include <limits>
 #include <ostream>
 #include <utility>
 
@@ -39,21 +38,6 @@ struct queries_of_cell {
             count, [this](std::size_t i) { truth[i] = decide_reference(queries[i]).outcome; });
     }
 };
-
-template <class Pass>
-double fastest_of(const Pass& pass, double least_total) {
-    double fastest = std::numeric_limits<double>::infinity(), elapsed = 0;
-    const clock::time_point start = clock::now();
-    for (int passes = 0;
-         passes == 0 || elapsed < least_total || (passes < 3 && elapsed < 10 * least_total);
-         ++passes) {
-        const clock::time_point begin = clock::now();
-        pass();
-        fastest = std::min(fastest, seconds_since(begin));
-        elapsed = seconds_since(start);
-    }
-    return fastest;
-}
 
 template <class Query>
 cell measured(const plan& what, std::size_t subject, const queries_of_cell<Query>& of) {

@@ -66,9 +66,7 @@ struct plan {
     std::uint64_t seed = 1;
     std::size_t queries = 0;  ///< of a cell; fewer where the family is thinned, and at least one
     int threads = 0;          ///< for the truth; 0: one per core
-    /// The time is that of the fastest pass. Passes take at least this long in total, and there are
-    /// at least three, unless three take ten times as long.
-    double seconds = 0;
+    double seconds = 0;       ///< of all passes of a cell and method (fastest_of)
 };
 
 /// `done` and `all` count the values of knobs of all families.

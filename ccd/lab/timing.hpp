@@ -1,9 +1,11 @@
 // Timing of contestants alternately, so that a disturbance of the machine hits all alike.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace ccd::lab {
@@ -35,6 +37,23 @@ struct timing {
 std::vector<timing> race(
     const std::vector<std::function<void()>>& passes, int repeats,
     const std::function<void(double)>& show = [](double) {});
+
+/// The seconds of the fastest pass. Passes take at least `least_total` in total, and there are at
+/// least three, unless three take ten times as long.
+template <class Pass>
+double fastest_of(const Pass& pass, double least_total) {
+    double fastest = std::numeric_limits<double>::infinity(), elapsed = 0;
+    const clock::time_point start = clock::now();
+    for (int passes = 0;
+         passes == 0 || elapsed < least_total || (passes < 3 && elapsed < 10 * least_total);
+         ++passes) {
+        const clock::time_point begin = clock::now();
+        pass();
+        fastest = std::min(fastest, seconds_since(begin));
+        elapsed = seconds_since(start);
+    }
+    return fastest;
+}
 
 /// The least difference of two successive readings of the clock, in seconds.
 double clock_overhead();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <ccd/contact.hpp>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "ccd/lab/timing.hpp"
@@ -14,8 +13,6 @@ namespace {
 
 using errbound::support::table;
 using errbound::support::text_of;
-
-using lab::seconds_since;
 
 template <class Query>
 outcome decide_one(const Query& query, ccd::method method, const time_request& request) {
@@ -51,17 +48,14 @@ template <class Query>
 std::vector<outcome> decide_all(const std::vector<Query>& queries, const device_choice& device,
                                 const time_request& request, double seconds, query_result& out) {
     std::vector<outcome> outcomes(queries.size());
-    double fastest = std::numeric_limits<double>::infinity();
-    const auto start = lab::clock::now();
-    do {
-        const auto pass = lab::clock::now();
-        if (device.cuda)
-            answer_on_device(queries, device, out.method, request, outcomes);
-        else
+    const double fastest = lab::fastest_of(
+        [&] {
+            if (device.cuda)
+                return answer_on_device(queries, device, out.method, request, outcomes);
             for (std::size_t i = 0; i < queries.size(); ++i)
                 outcomes[i] = decide_one(queries[i], out.method, request);
-        fastest = std::min(fastest, seconds_since(pass));
-    } while (seconds_since(start) < seconds);
+        },
+        seconds);
     out.ns_per_query = fastest * 1e9 / static_cast<double>(queries.size());
     if (request.times)
         for (const first_time& time : find_times(queries, device, request))

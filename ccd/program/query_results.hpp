@@ -32,7 +32,7 @@ struct time_request {
     bool ignores_truth() const { return t_max < 1 || distance; }
 };
 
-/// Decides repeatedly until `seconds` have passed. The time is that of the fastest pass.
+/// Decides repeatedly for `seconds`. The time is that of the fastest pass (lab::fastest_of).
 query_result decide_queries(const io::query_file& queries, const std::string& file,
                             ccd::method method, const device_choice& device,
                             const time_request& request, double seconds);

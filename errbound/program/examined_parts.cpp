@@ -48,27 +48,6 @@ row row_of(const function_errors& f) {
             {"violations", f.violations}};
 }
 
-/// The column `clamped` names the clamped quantiles.
-row row_of(const tightness& t) {
-    const bool has_rates = t.claimed > 0 && t.log10.ratios() + t.log10.exact() > 0;
-    row r = {{"rule", t.rule},
-             {"number", t.number},
-             {"quantity", t.quantity},
-             {"measure", t.measure},
-             {"ratios", t.log10.ratios()},
-             {"exact", t.log10.exact()},
-             {"unknown", t.log10.unknown()},
-             {"claimed", has_rates ? row(t.claimed) : row()},
-             {"observed", has_rates ? row(t.observed()) : row()}};
-    std::string clamped;
-    for (const auto& [name, share] : quantiles) {
-        r[name] = t.log10.ratios() > 0 ? row(t.log10.quantile(share)) : row();
-        if (t.log10.is_clamped(share)) clamped += (clamped.empty() ? "" : " ") + std::string(name);
-    }
-    r["clamped"] = clamped;
-    return r;
-}
-
 /// A row for each entry of the parts' reports. If `named`, the first column is the part.
 template <class Entry>
 rows rows_of(const std::vector<found_part>& parts, std::vector<Entry> report::*entries,
@@ -174,6 +153,26 @@ void write_files(const std::vector<found_part>& parts, const result_files& to) {
 }
 
 }  // namespace
+
+row row_of(const tightness& t) {
+    const bool has_rates = t.claimed > 0 && t.log10.ratios() + t.log10.exact() > 0;
+    row r = {{"rule", t.rule},
+             {"number", t.number},
+             {"quantity", t.quantity},
+             {"measure", t.measure},
+             {"ratios", t.log10.ratios()},
+             {"exact", t.log10.exact()},
+             {"unknown", t.log10.unknown()},
+             {"claimed", has_rates ? row(t.claimed) : row()},
+             {"observed", has_rates ? row(t.observed()) : row()}};
+    std::string clamped;
+    for (const auto& [name, share] : quantiles) {
+        r[name] = t.log10.ratios() > 0 ? row(t.log10.quantile(share)) : row();
+        if (t.log10.is_clamped(share)) clamped += (clamped.empty() ? "" : " ") + std::string(name);
+    }
+    r["clamped"] = clamped;
+    return r;
+}
 
 void result_files::add_options(CLI::App& line) {
     support::add_output(line, "--json", json, "Write all tables as JSON");

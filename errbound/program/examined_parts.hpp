@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "errbound/support/command.hpp"
+#include "errbound/support/rows.hpp"
 
 namespace errbound::validation {
 
@@ -25,6 +26,9 @@ struct result_files {
         return {json, csv, functions_csv};
     }
 };
+
+/// The columns of --csv without `part`. The column `clamped` names the clamped quantiles.
+support::row row_of(const tightness& t);
 
 /// Examines the parts, writes the requested files, then prints tables. Returns broken_promise if
 /// there are violations. Throws errbound::support::file_error.

@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <ccd/bodies/motion.hpp>
-#include <ccd/bodies/steps.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/methods/transform.hpp>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "tests/bench/sections.hpp"
@@ -157,77 +155,9 @@ void add_rows(std::string_view kind, double angle, const options& o, rows& all) 
     }
 }
 
-// ---- Steps of meshes ----
-
-/// A sphere of radius 1 with waves of height 0.02 and 2·n·(2n − 2) faces.
-ccd::mesh wavy_sphere(unsigned n) {
-    ccd::mesh m;
-    const unsigned around = 2 * n;
-    const auto add = [&](double latitude, double longitude) {
-        const double r = 1 + 0.02 * std::sin(9 * latitude) * std::sin(9 * longitude);
-        m.vertices.push_back({r * std::cos(latitude) * std::cos(longitude),
-                              r * std::cos(latitude) * std::sin(longitude),
-                              r * std::sin(latitude)});
-    };
-    add(-std::numbers::pi / 2, 0);
-    for (unsigned i = 1; i < n; ++i)
-        for (unsigned j = 0; j < around; ++j)
-            add(std::numbers::pi * (i / static_cast<double>(n) - 0.5), std::numbers::pi * j / n);
-    add(std::numbers::pi / 2, 0);
-    const auto at = [&](unsigned i, unsigned j) {
-        if (i == 0) return ccd::vertex_index{0};
-        if (i == n) return static_cast<ccd::vertex_index>(m.vertices.size() - 1);
-        return 1 + (i - 1) * around + j % around;
-    };
-    for (unsigned i = 0; i < n; ++i)
-        for (unsigned j = 0; j < around; ++j) {
-            if (i > 0) m.faces.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
-            if (i + 1 < n) m.faces.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
-        }
-    return m;
-}
-
-/// One sphere turns once about z in 20 steps, beside another at rest.
-row turn_of_spheres(double gap, const options& o) {
-    const ccd::mesh sphere = wavy_sphere(o.quick ? 12 : 51);
-    constexpr int steps = 20;
-    ccd::body_steps bodies({sphere, sphere});
-    std::vector<std::vector<ccd::body_motion>> motions;
-    const double other = 2.04 + gap;
-    for (int i = 0; i < steps; ++i) {
-        const auto pose_at = [](int k) {
-            const double half = std::numbers::pi * k / steps;
-            return ccd::pose{{std::cos(half), 0, 0, std::sin(half)}, {}};
-        };
-        ccd::affine_motion rest;
-        rest.p0 = rest.p1 = {other, 0, 0};
-        motions.push_back({ccd::shorter_arc(pose_at(i), pose_at(i + 1)), rest});
-    }
-    ccd::body_step_result last;
-    std::size_t candidates = 0, pairs = 0;
-    const auto turn = [&] {
-        candidates = pairs = 0;
-        for (const auto& step : motions) {
-            last = bodies.run(step, {.threads = 1});
-            ccd::for_each_kind([&]<ccd::kind K>() { candidates += last.candidates.of<K>(); });
-            pairs += number_of(last.pairs);
-        }
-    };
-    const timing t = race({turn}, o.quick ? 3 : 5)[0];
-    return {{"gap", gap},
-            {"faces", sphere.faces.size()},
-            {"ms_per_step", 1e3 * t.minimum / steps},
-            {"median", 1e3 * t.median / steps},
-            {"candidates_per_step", candidates / steps},
-            {"pairs_per_step", pairs / steps}};
-}
-
 }  // namespace
 
 void bodies(const options& o, report& out) {
-    out.table("bodies", {},
-              "Two meshes, of which one turns once in 20 steps: ms per step, one thread",
-              {turn_of_spheres(0.001, o), turn_of_spheres(-0.025, o), turn_of_spheres(-0.04, o)});
     rows all;
     for (const double angle : {0.0, 0.1}) {
         add_rows<ccd::vertex_face_of, ccd::vertex_face>("vf", angle, o, all);

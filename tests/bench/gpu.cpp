@@ -7,6 +7,7 @@
 #include <ccd/cuda.hpp>
 #include <ccd/step.hpp>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -27,42 +28,23 @@ void check(const ccd::cuda::status& s) {
 
 /// An array in device memory, optionally with a copy of host memory.
 template <class T>
-class device_array {
-  public:
-    explicit device_array(std::size_t count) : count_(count) {
-        void* memory = nullptr;
-        check(cudaMalloc(&memory, std::max<std::size_t>(1, count) * sizeof(T)));
-        data_ = static_cast<T*>(memory);
-    }
-    device_array(const T* host, std::size_t count) : device_array(count) {
-        check(cudaMemcpy(data_, host, count_ * sizeof(T), cudaMemcpyHostToDevice));
-    }
-    ~device_array() { (void)cudaFree(data_); }
-    device_array(const device_array&) = delete;
-    device_array& operator=(const device_array&) = delete;
-
-    T* data() const { return data_; }
-    std::size_t size() const { return count_; }
-    std::vector<T> copied() const {
-        std::vector<T> host(count_);
-        check(cudaMemcpy(host.data(), data_, count_ * sizeof(T), cudaMemcpyDeviceToHost));
-        return host;
-    }
-
-  private:
-    T* data_ = nullptr;
-    std::size_t count_;
-};
+std::shared_ptr<T> on_device(std::size_t count, const T* host = nullptr) {
+    void* memory = nullptr;
+    check(cudaMalloc(&memory, std::max<std::size_t>(1, count) * sizeof(T)));
+    std::shared_ptr<T> array(static_cast<T*>(memory), [](T* p) { (void)cudaFree(p); });
+    if (host != nullptr) check(cudaMemcpy(memory, host, count * sizeof(T), cudaMemcpyHostToDevice));
+    return array;
+}
 
 struct device_scene {
-    device_array<double> before, after;
+    std::shared_ptr<double> before, after;
     ccd::cuda::positions at;
 
     explicit device_scene(const ccd::vertex_rows& rows)
-        : before(rows.before, 3 * rows.vertices),
-          after(rows.after, 3 * rows.vertices),
-          at(ccd::cuda::coordinates<double>::rows(before.data()),
-             ccd::cuda::coordinates<double>::rows(after.data()), rows.vertices) {}
+        : before(on_device(3 * rows.vertices, rows.before)),
+          after(on_device(3 * rows.vertices, rows.after)),
+          at(ccd::cuda::coordinates<double>::rows(before.get()),
+             ccd::cuda::coordinates<double>::rows(after.get()), rows.vertices) {}
 };
 
 /// A scene's candidates of one kind on the device, repeated until there are at least `least`, with
@@ -73,31 +55,37 @@ class device_batch {
     using pair = ccd::pair_of_query<Query>;
 
     device_batch(const device_scene& scene, const bench::query_set<Query>& once, std::size_t least)
-        : scene_(scene),
-          rows_(repeated(once.by_index, (least + once.size() - 1) / once.size())),
-          answers_(rows_.size()),
-          memory_(ccd::cuda::scratch_bytes(scene.at.vertices, rows_.size())) {}
-
-    std::size_t size() const { return rows_.size(); }
-    void decide(const ccd::cuda::batch_options& options) const {
-        const auto all = ccd::cuda::candidates<pair>::rows(rows_.data(), rows_.size());
-        const ccd::cuda::scratch scratch{memory_.data(), memory_.size()};
-        check(decide_batch(scene_.at, all, answers_.data(), scratch, options));
-        check(finish(scene_.at, all, answers_.data(), scratch, options));
+        : scene_(scene) {
+        std::vector<pair> all;
+        while (all.size() < std::max<std::size_t>(1, least))
+            all.insert(all.end(), once.by_index.begin(), once.by_index.end());
+        size_ = all.size();
+        rows_ = on_device(size_, all.data());
+        answers_ = on_device<ccd::outcome>(size_);
+        bytes_ = ccd::cuda::scratch_bytes(scene.at.vertices, size_);
+        memory_ = on_device<std::byte>(bytes_);
     }
-    std::vector<ccd::outcome> answers() const { return answers_.copied(); }
+
+    std::size_t size() const { return size_; }
+    void decide(const ccd::cuda::batch_options& options) const {
+        const auto all = ccd::cuda::candidates<pair>::rows(rows_.get(), size_);
+        const ccd::cuda::scratch scratch{memory_.get(), bytes_};
+        check(decide_batch(scene_.at, all, answers_.get(), scratch, options));
+        check(finish(scene_.at, all, answers_.get(), scratch, options));
+    }
+    std::vector<ccd::outcome> answers() const {
+        std::vector<ccd::outcome> host(size_);
+        check(cudaMemcpy(host.data(), answers_.get(), size_ * sizeof(ccd::outcome),
+                         cudaMemcpyDeviceToHost));
+        return host;
+    }
 
   private:
-    static device_array<pair> repeated(const std::vector<pair>& once, std::size_t copies) {
-        std::vector<pair> all;
-        for (std::size_t i = 0; i < copies; ++i) all.insert(all.end(), once.begin(), once.end());
-        return {all.data(), all.size()};
-    }
-
     const device_scene& scene_;
-    device_array<pair> rows_;
-    device_array<ccd::outcome> answers_;
-    device_array<std::byte> memory_;
+    std::size_t size_ = 0, bytes_ = 0;
+    std::shared_ptr<pair> rows_;
+    std::shared_ptr<ccd::outcome> answers_;
+    std::shared_ptr<std::byte> memory_;
 };
 
 /// Times all methods in both precisions, and counts their errors.

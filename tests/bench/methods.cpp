@@ -25,98 +25,74 @@ std::size_t affordable(ccd::method method, const std::vector<Query>& sample) {
 
 /// Races the contestants on a scene's queries of one kind: every method one by one, and batches.
 template <class Query>
-class methods_race {
-  public:
-    methods_race(const query_set<Query>& all, const options& o)
-        : all_(all),
-          sample_(all.at_most(o.max_queries()).all_stored()),
-          batch_(o.quick ? all.at_most(5 * o.max_queries()) : all),
-          answers_(batch_.size()) {
-        for (const ccd::method_info& m : ccd::methods()) add_method(m);
-        for (const ccd::instruction_set set : ccd::instruction_sets())
-            add_batch("batch on " + std::string(ccd::name(set)), set, 1);
-        const ccd::instruction_set best = ccd::instruction_sets().back();
-        const std::string on_best = "batch on " + std::string(ccd::name(best));
-        add_batch(on_best + ", all threads", best, 0);
-        for (std::size_t i = 0; i < batch_.size(); i += 1 + batch_.size() / o.max_queries())
-            if (ccd::decide(ccd::method::exact, batch_[i]).outcome != answers_[i])
-                throw std::runtime_error("batches and single calls disagree");
-        of_sample_.resize(sample_.size());  // stored: 192 bytes a query
-        add_exact(on_best + ", stored queries", of_sample_,
-                  [this] { ccd::decide_batch(sample_, of_sample_, {.threads = 1}); });
-    }
-    methods_race(const methods_race&) = delete;  // the passes refer to it
-    methods_race& operator=(const methods_race&) = delete;
-
-    void run(int repeats, rows& table) const {
-        const std::vector<timing> timings = race(passes_, repeats);
-        for (std::size_t i = 0; i < contestants_.size(); ++i) {
-            const contestant& c = contestants_[i];
-            const double minimum = timings[i].ns(c.queries);
-            table.push_back({{"kind", short_name(ccd::kind_of<Query>)},
-                             {"contestant", c.name},
-                             {"queries", c.queries},
-                             {"collide", c.collisions},
-                             {"ns_min", minimum},
-                             {"ns_median", timings[i].median_ns(c.queries)},
-                             {"speed-up_over_tight",
-                              timings[tight_].ns(contestants_[tight_].queries) / minimum}});
-        }
-    }
-
-  private:
-    struct contestant {
-        std::string name;
-        std::size_t queries, collisions;  ///< uncertain counts as a collision
+void add_rows(const query_set<Query>& all, const options& o, rows& table) {
+    rows contestants;
+    std::vector<std::function<void()>> passes;
+    const auto add = [&](const std::string& name, std::size_t queries, std::ptrdiff_t collide,
+                         const std::function<void()>& pass) {
+        contestants.push_back({{"kind", short_name(ccd::kind_of<Query>)},
+                               {"contestant", name},
+                               {"queries", queries},
+                               {"collide", collide}});
+        passes.push_back(pass);
     };
 
-    void add_method(const ccd::method_info& m) {
-        if (m.method == ccd::method::tight) tight_ = contestants_.size();
-        const std::size_t size = affordable(m.method, sample_);
+    const std::vector<Query> sample = all.at_most(o.max_queries()).all_stored();
+    std::deque<std::vector<Query>> parts;  // of the sample, for slow methods
+    std::size_t tight = 0;
+    for (const ccd::method_info& m : ccd::methods()) {
+        if (m.method == ccd::method::tight) tight = contestants.size();
+        const std::size_t size = affordable(m.method, sample);
         const std::vector<Query>& queries =
-            size == sample_.size() ? sample_ : parts_.emplace_back(all_.resized(size).all_stored());
-        const auto collisions = std::ranges::count_if(
+            size == sample.size() ? sample : parts.emplace_back(all.resized(size).all_stored());
+        const auto collide = std::ranges::count_if(  // uncertain counts as a collision
             queries, [&m](const Query& q) { return ccd::may_collide(ccd::decide(m.method, q)); });
-        contestants_.push_back(
-            {std::string(m.name), queries.size(), static_cast<std::size_t>(collisions)});
-        passes_.push_back([&queries, method = m.method] {
+        add(std::string(m.name), queries.size(), collide, [&queries, method = m.method] {
             for (const Query& q : queries) keep(ccd::decide(method, q));
         });
     }
-    void add_batch(const std::string& how, ccd::instruction_set set, int threads) {
-        const auto before = answers_;
-        const bool is_first = contestants_.size() == std::size(ccd::methods());
-        add_exact(how, answers_, [this, set, threads] {
-            batch_.decide_batch(0, answers_, {.threads = threads, .set = set});
-        });
-        if (!is_first && answers_ != before) throw std::runtime_error("answers differ: " + how);
-    }
-    /// Runs the pass once for its answers.
-    void add_exact(const std::string& how, const std::vector<ccd::outcome>& answers,
-                   const std::function<void()>& pass) {
-        pass();
-        const auto collisions = std::ranges::count(answers, ccd::outcome::collides);
-        contestants_.push_back(
-            {"exact, " + how, answers.size(), static_cast<std::size_t>(collisions)});
-        passes_.push_back(pass);
-    }
 
-    const query_set<Query>& all_;
-    std::vector<Query> sample_;
-    query_set<Query> batch_;
-    std::vector<ccd::outcome> answers_, of_sample_;
-    std::deque<std::vector<Query>> parts_;  ///< chunks of the sample, for slow methods
-    std::vector<contestant> contestants_;
-    std::vector<std::function<void()>> passes_;
-    std::size_t tight_ = 0;  ///< index of the tight method
-};
+    const query_set<Query> batch = o.quick ? all.at_most(5 * o.max_queries()) : all;
+    std::vector<ccd::outcome> right, answers(batch.size()), of_sample(sample.size());
+    const auto add_exact = [&](const std::string& how, const std::vector<ccd::outcome>& found,
+                               const std::function<void()>& pass) {
+        pass();
+        add("exact, batch on " + how, found.size(),
+            std::ranges::count(found, ccd::outcome::collides), pass);
+    };
+    const auto add_batch = [&](const std::string& how, ccd::instruction_set set, int threads) {
+        add_exact(how, answers, [&, set, threads] {
+            batch.decide_batch(0, answers, {.threads = threads, .set = set});
+        });
+        if (right.empty()) right = answers;
+        if (answers != right) throw std::runtime_error("answers differ: " + how);
+    };
+    const auto sets = ccd::instruction_sets();
+    for (const ccd::instruction_set set : sets) add_batch(std::string(ccd::name(set)), set, 1);
+    const std::string best(ccd::name(sets.back()));
+    add_batch(best + ", all threads", sets.back(), 0);
+    for (std::size_t i = 0; i < batch.size(); i += 1 + batch.size() / o.max_queries())
+        if (ccd::decide(ccd::method::exact, batch[i]).outcome != right[i])
+            throw std::runtime_error("batches and single calls disagree");
+    add_exact(best + ", stored queries", of_sample,  // 192 bytes a query
+              [&] { ccd::decide_batch(sample, of_sample, {.threads = 1}); });
+
+    const std::vector<timing> timings = race(passes, o.repeats());
+    const auto ns = [&](std::size_t i) { return timings[i].ns(contestants[i]["queries"]); };
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        contestants[i].update({{"ns_min", ns(i)},
+                               {"ns_median", timings[i].median_ns(contestants[i]["queries"])},
+                               {"speed-up_over_tight", ns(tight) / ns(i)}});
+        table.push_back(contestants[i]);
+    }
+}
 
 }  // namespace
 
 void methods(const scene& s, const options& o, report& out) {
     rows all;
-    s.queries.for_each([&]<class Query>(const ccd::lab::queries_with_truth<Query>& known) {
-        if (known.queries.size() > 0) methods_race<Query>(known.queries, o).run(o.repeats(), all);
+    s.queries.for_each([&](const auto& known) {
+        if (known.queries.size() > 0) add_rows(known.queries, o, all);
     });
     out.table("methods", {{"scene", s.name}},
               s.name +

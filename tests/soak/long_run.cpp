@@ -1,13 +1,13 @@
 #include "tests/soak/long_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "ccd/lab/tables.hpp"
+#include "ccd/lab/timing.hpp"
 #include "errbound/support/ordered_blocks.hpp"
 #include "errbound/support/output_file.hpp"
 
@@ -23,11 +23,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(findings, blocks, tables, different, differen
 namespace {
 
 namespace fs = std::filesystem;
-using clock = std::chrono::steady_clock;
-
-double seconds_since(clock::time_point start) {
-    return std::chrono::duration<double>(clock::now() - start).count();
-}
+using ccd::lab::clock, ccd::lab::seconds_since;
 
 ccd::lab::row dependencies_of(const part& of) {
     return {{"part", of.name}, {"version", of.version}};

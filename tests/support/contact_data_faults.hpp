@@ -99,42 +99,28 @@ class check {
         return !(bound < 1e300) || x <= real(bound);
     }
 
-    /// True if these points of the query meet at some time of the bracket.
-    template <class... Point>
-    bool meet(Point... i) const {
+    /// True if these smaller features of the query meet at some time of the bracket.
+    bool meet(const ccd::meeting_features& of) const {
         const auto p = points_of(query_);
+        const auto& [met, i] = of;
         const auto& t = found_.time;
         const bool one = t.low == t.high;
         const oracle::interval when{t.low, t.high, one, one};
-        if constexpr (sizeof...(i) == 2)
-            return oracle::collides(ccd::vertex_vertex<double>{p[i]...}, oracle::shortcuts::on,
-                                    when);
-        else
-            return oracle::collides(ccd::vertex_edge<double>{p[i]...}, oracle::shortcuts::on, when);
+        return met == ccd::kind::vertex_vertex
+                   ? oracle::collides(ccd::vertex_vertex<double>{p[i[0]], p[i[1]]},
+                                      oracle::shortcuts::on, when)
+                   : oracle::collides(ccd::vertex_edge<double>{p[i[0]], p[i[1]], p[i[2]]},
+                                      oracle::shortcuts::on, when);
     }
     void check_features() {
-        std::size_t corners = 0, edges = 0;
-        const std::size_t count = points_of(query_).size();
-        for (std::size_t i = 0; i < first_points; ++i)
-            for (std::size_t j = first_points; j < count; ++j) corners += meet(i, j);
-        if constexpr (whole != ccd::kind::vertex_vertex) {
-            for (std::size_t i = 0; i < first_points; ++i)
-                for (std::size_t j = first_points; j < count; ++j)
-                    for (std::size_t k = j + 1; k < count; ++k) edges += meet(i, j, k);
-            if constexpr (whole == ccd::kind::edge_edge)
-                edges += meet(std::size_t(2), std::size_t(0), std::size_t(1)) +
-                         meet(std::size_t(3), std::size_t(0), std::size_t(1));
-        }
-        const auto& [met, i] = found_.features;
-        const ccd::kind smallest = corners > 0 ? ccd::kind::vertex_vertex
-                                   : edges > 0 ? ccd::kind::vertex_edge
-                                               : whole;
-        if (met != smallest) fault("not the smallest features");
-        if (met == ccd::kind::vertex_vertex
-                ? !meet(i[0], i[1])
-                : met == ccd::kind::vertex_edge && !meet(i[0], i[1], i[2]))
+        const auto all = features_of<whole>();
+        const auto smallest = std::ranges::find_if(
+            all, [&](const ccd::meeting_features& of) { return of.kind == whole || meet(of); });
+        if (found_.features.kind != smallest->kind) fault("not the smallest features");
+        if (!ccd::is_cubic(found_.features.kind) && !meet(found_.features))
             fault("features that do not meet");
     }
+
     void check_at(const rational& t) {
         const moment m(query_, t);
         const feet<rational> exact(found_.features, m.at);

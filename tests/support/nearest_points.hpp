@@ -31,6 +31,25 @@ vector<S> cross(const vector<S>& a, const vector<S>& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// All features between which a distance can be attained, the smallest first, in the order of
+/// ccd/nearness.hpp.
+template <ccd::kind K>
+std::vector<ccd::meeting_features> features_of() {
+    using enum ccd::kind;
+    if constexpr (K == vertex_face)
+        return {{vertex_vertex, {0, 1}},    {vertex_vertex, {0, 2}},  {vertex_vertex, {0, 3}},
+                {vertex_edge, {0, 1, 2}},   {vertex_edge, {0, 2, 3}}, {vertex_edge, {0, 3, 1}},
+                {vertex_face, {0, 1, 2, 3}}};
+    else if constexpr (K == edge_edge)
+        return {{vertex_vertex, {0, 2}},  {vertex_vertex, {0, 3}},  {vertex_vertex, {1, 2}},
+                {vertex_vertex, {1, 3}},  {vertex_edge, {0, 2, 3}}, {vertex_edge, {1, 2, 3}},
+                {vertex_edge, {2, 0, 1}}, {vertex_edge, {3, 0, 1}}, {edge_edge, {0, 1, 2, 3}}};
+    else if constexpr (K == vertex_edge)
+        return {{vertex_vertex, {0, 1}}, {vertex_vertex, {0, 2}}, {vertex_edge, {0, 1, 2}}};
+    else
+        return {{vertex_vertex, {0, 1}}};
+}
+
 /// Nearest points of two features' planes or lines. They are not unique if the divisor is 0.
 template <class S>
 struct feet {

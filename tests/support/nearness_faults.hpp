@@ -68,26 +68,7 @@ struct positions {
 /// The feet with the least distance of the smallest features, the first of these.
 template <ccd::kind K>
 feet<whole> nearest(const std::vector<vector<whole>>& at) {
-    using ccd::kind;
-    using features = ccd::meeting_features;
-    std::vector<features> all;
-    if constexpr (K == kind::vertex_face)
-        all = {{kind::vertex_vertex, {0, 1}},    {kind::vertex_vertex, {0, 2}},
-               {kind::vertex_vertex, {0, 3}},    {kind::vertex_edge, {0, 1, 2}},
-               {kind::vertex_edge, {0, 2, 3}},   {kind::vertex_edge, {0, 3, 1}},
-               {kind::vertex_face, {0, 1, 2, 3}}};
-    else if constexpr (K == kind::edge_edge)
-        all = {{kind::vertex_vertex, {0, 2}},  {kind::vertex_vertex, {0, 3}},
-               {kind::vertex_vertex, {1, 2}},  {kind::vertex_vertex, {1, 3}},
-               {kind::vertex_edge, {0, 2, 3}}, {kind::vertex_edge, {1, 2, 3}},
-               {kind::vertex_edge, {2, 0, 1}}, {kind::vertex_edge, {3, 0, 1}},
-               {kind::edge_edge, {0, 1, 2, 3}}};
-    else if constexpr (K == kind::vertex_edge)
-        all = {{kind::vertex_vertex, {0, 1}},
-               {kind::vertex_vertex, {0, 2}},
-               {kind::vertex_edge, {0, 1, 2}}};
-    else
-        all = {{kind::vertex_vertex, {0, 1}}};
+    const auto all = features_of<K>();
     feet<whole> best(all[0], at);
     for (std::size_t i = 1; i < all.size(); ++i) {
         feet<whole> next(all[i], at);
@@ -95,7 +76,7 @@ feet<whole> nearest(const std::vector<vector<whole>>& at) {
             best = std::move(next);
     }
     constexpr std::uint8_t first = ccd::kind_traits<K>::first_vertices;
-    if (best.features.kind == kind::vertex_edge && best.features.points[0] >= first)
+    if (best.features.kind == ccd::kind::vertex_edge && best.features.points[0] >= first)
         best.between = whole(-1) * best.between;
     return best;
 }

@@ -40,6 +40,10 @@ inline int unit_of_numbers(std::initializer_list<double> numbers) {
 inline int unit_of_point(const ccd::point<double>& p) {
     return unit_of_numbers({p.x, p.y, p.z});
 }
+/// from (1 − t) + to t for each coordinate.
+inline vector between(const ccd::point<double>& from, const ccd::point<double>& to, int unit) {
+    return {between(from.x, to.x, unit), between(from.y, to.y, unit), between(from.z, to.z, unit)};
+}
 
 using quaternion_polynomial = std::array<polynomial, 4>;  // w x y z
 inline quaternion_polynomial product(const quaternion_polynomial& a,
@@ -92,32 +96,28 @@ inline quotient_point quotient_of(const ccd::body_point& p, int unit) {
     quotient_point r{{}, {integer(1)}};
     if (const auto* m = std::get_if<ccd::affine_motion>(p.motion)) {
         const int rest = unit_of_point(p.rest);
-        for (std::size_t i = 0; i < 3; ++i) {
-            r.at[i] = between(m->p0.*axes[i], m->p1.*axes[i], unit);
+        r.at = between(m->p0, m->p1, unit);
+        for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) {
                 polynomial x{scaled(p.rest.*axes[j]).in_units_of(rest)};
                 trim(x);
                 r.at[i] = r.at[i] + between(m->a0[i][j], m->a1[i][j], unit - rest) * x;
             }
-        }
     } else if (const auto* m = std::get_if<ccd::rigid_motion>(p.motion)) {
         const int q_unit = std::min(unit_of_numbers({m->q0.w, m->q0.x, m->q0.y, m->q0.z}),
                                     unit_of_numbers({m->q1.w, m->q1.x, m->q1.y, m->q1.z}));
         const quaternion_polynomial q{
             between(m->q0.w, m->q1.w, q_unit), between(m->q0.x, m->q1.x, q_unit),
             between(m->q0.y, m->q1.y, q_unit), between(m->q0.z, m->q1.z, q_unit)};
-        quaternion_polynomial x;
+        const vector x = between(p.rest, p.rest, unit) - between(m->centre, m->centre, unit);
+        const quaternion_polynomial conjugate{q[0], -q[1], -q[2], -q[3]};
+        const auto turned = product(product(q, {polynomial(), x[0], x[1], x[2]}), conjugate);
+        r.over = product(q, conjugate)[0];
+        const vector shift = between(m->p0, m->p1, unit);
         for (std::size_t axis = 0; axis < 3; ++axis)
-            x[axis + 1] = between(p.rest.*axes[axis], p.rest.*axes[axis], unit) -
-                          between(m->centre.*axes[axis], m->centre.*axes[axis], unit);
-        const auto turned = product(product(q, x), {q[0], -q[1], -q[2], -q[3]});
-        r.over = product(q, {q[0], -q[1], -q[2], -q[3]})[0];
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            r.at[axis] =
-                turned[axis + 1] + r.over * between(m->p0.*axes[axis], m->p1.*axes[axis], unit);
+            r.at[axis] = turned[axis + 1] + r.over * shift[axis];
     } else {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            r.at[axis] = between(p.rest.*axes[axis], p.rest.*axes[axis], unit);
+        r.at = between(p.rest, p.rest, unit);
     }
     return r;
 }

@@ -293,10 +293,10 @@ def tightness(rows):
     figure, axes = plt.subplots(figsize=(2.6 + 0.72 * len(rules), 1.4 + 0.24 * len(quantities)))
     for r in rows:
         at = quantities.index(r["quantity"]), rules.index(r["rule"])
-        image[at] = r["q50"]
-        if not math.isnan(r["q50"]):
-            axes.text(at[1], at[0], f"{power(r['q50'])} / {power(r['q99'])}", ha="center",
-                      va="center", fontsize=6.5, color="white" if r["q50"] > 8 else INK)
+        image[at] = r["median"]
+        if not math.isnan(r["median"]):
+            axes.text(at[1], at[0], f"{power(r['median'])} / {power(r['q99'])}", ha="center",
+                      va="center", fontsize=6.5, color="white" if r["median"] > 8 else INK)
     # Most medians lie below 10^2, some far beyond.
     palette = matplotlib.colormaps["YlOrRd"].copy()
     palette.set_bad(BAND)

@@ -1,10 +1,9 @@
 // Ratios of bounds to true errors, by MPFR (errbound/validation/validation.hpp).
 #include <errbound/validation/validation.hpp>
-#include <string>
-#include <utility>
 
 #include "ccd/lab/sections.hpp"
 #include "ccd/lab/validation/query_validation.hpp"
+#include "errbound/program/examined_parts.hpp"
 
 namespace ccd::lab {
 namespace {
@@ -14,30 +13,10 @@ namespace validation = errbound::validation;
 rows rows_of(const validation::report& found) {
     rows result;
     for (const validation::tightness& t : found.distributions) {
-        row r = {{"rule", t.rule},
-                 {"number", t.number},
-                 {"quantity", t.quantity},
-                 {"measure", t.measure},
-                 {"count", t.log10.ratios()},
-                 {"exact", t.log10.exact()},
-                 {"unknown", t.log10.unknown()}};
-        if (t.claimed > 0 && t.log10.ratios() + t.log10.exact() > 0) {
-            r["claimed"] = t.claimed;
-            r["observed"] = t.observed();
-        }
-        std::string clamped;
-        for (const int percent : {0, 1, 25, 50, 75, 99, 100}) {
-            if (t.log10.ratios() == 0) continue;
-            const std::string name = "q" + std::to_string(percent);
-            r[name] = t.log10.quantile(percent / 100.0);
-            if (t.log10.is_clamped(percent / 100.0)) clamped += (clamped.empty() ? "" : " ") + name;
-        }
-        if (!clamped.empty()) r["clamped"] = clamped;
-        for (const validation::violation& v : found.violations) {
+        row& r = result.emplace_back(validation::row_of(t));
+        for (const validation::violation& v : found.violations)
             if (v.rule == t.rule && v.number == t.number && !r.contains("broken"))
                 r["broken"] = v.what;
-        }
-        result.push_back(std::move(r));
     }
     return result;
 }

@@ -3,21 +3,17 @@
 
 #include <ccd/mesh.hpp>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
 namespace bench {
 
-/// Two faces by index, ascending.
+/// Two faces by index, ascending; sorted pairs.
 using face_pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-struct peer_result {
-    double all_seconds = 0, any_seconds = 0;  ///< least of the runs
-    face_pairs pairs;                         ///< sorted
-};
-
-/// CGAL's self_intersections and does_self_intersect on one thread. Precondition: no edge belongs
-/// to more than two faces.
-peer_result intersections_by_cgal(const ccd::mesh& mesh, int repeats);
+/// Passes of CGAL's self_intersections, which writes `pairs`, and of does_self_intersect, on one
+/// thread. Precondition: no edge belongs to more than two faces.
+std::vector<std::function<void()>> cgal_passes(const ccd::mesh& mesh, face_pairs& pairs);
 
 }  // namespace bench

@@ -70,18 +70,18 @@ def table(rows):
     print()
 
 
-def row_of(name, copies, result, placement):
+def row_of(name, copies, result):
     columns = {key: [rank[key] for rank in result["ranks"]]
                for key in ("given", "held", "sent", "candidates", "memory")}
     (given, _), (held, held_worst) = spread(columns["given"]), spread(columns["held"])
     (sent, _), (candidates, worst) = spread(columns["sent"]), spread(columns["candidates"])
-    return [name, f"{copies:,}", f"{result['faces']:,}", str(len(result["ranks"])), placement,
+    return [name, f"{copies:,}", f"{result['faces']:,}", str(len(result["ranks"])),
             f"{result['pairs']:,}", f"{held / max(1, given):.3f}", f"{held_worst:.2f}",
             f"{candidates:,}", f"{worst:.2f}", f"{sent / max(1, given):.0f}",
             f"{max(columns['memory']) / 2**20:.0f}"]
 
 
-HEADING = ["scene", "copies", "faces", "ranks", "placed", "pairs", "held/given", "worst/mean",
+HEADING = ["scene", "copies", "faces", "ranks", "pairs", "held/given", "worst/mean",
            "candidates", "worst/mean", "bytes sent a face", "most MiB of a rank"]
 
 
@@ -95,24 +95,14 @@ def sizes(faces, largest):
 
 
 def compare_copies(given, name, frames, copies, failures):
-    """Yields rows of `copies` copies of a scene; small scenes are also placed in other ways."""
+    """Yields rows of `copies` copies of a scene."""
     first = measured(given, 1, frames, "--copies", copies)
     if first["hash"] != first["hash_of_whole"]:
         failures.append(f"{name}, {copies} copies: the hash differs from that of the whole mesh")
-    runs = [(ranks, "blocks") for ranks in RANKS]
-    if first["faces"] <= 1_000_000:
-        runs += [(ranks, placement) for placement in ("interleaved", "one", "empty") for ranks in (3, 8)]
-    for ranks, placement in runs:
-        result = measured(given, ranks, frames, "--copies", copies, "--placement", placement)
-        same(result, first, f"{name}, {copies} copies, {ranks} ranks, {placement}", failures)
-        yield row_of(name, copies, result, placement)
-
-
-def compare_with_huge_face(given, name, frames, failures):
-    results = [measured(given, ranks, frames, "--copies", 4, "--huge-face") for ranks in (1, 3, 8)]
-    for result in results:
-        same(result, results[0], f"{name}, a huge face, {len(result['ranks'])} ranks", failures)
-        yield row_of(name, 4, result, "blocks and a huge face")
+    for ranks in RANKS:
+        result = measured(given, ranks, frames, "--copies", copies)
+        same(result, first, f"{name}, {copies} copies, {ranks} ranks", failures)
+        yield row_of(name, copies, result)
 
 
 def main():
@@ -122,7 +112,6 @@ def main():
         faces = measured(given, 1, frames)["faces"]
         for copies in sizes(faces, 10 * faces if given.quick else given.faces):
             rows += compare_copies(given, name, frames, copies, failures)
-        rows += compare_with_huge_face(given, name, frames, failures)
     table(rows)
     print("\n".join(failures) if failures else "pairs, times and first contacts: the same in all")
     return 1 if failures else 0

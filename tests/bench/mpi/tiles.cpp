@@ -28,21 +28,18 @@ using ccd::mpi::vertex_number;
 using ccd::mpi::detail::exchanger;
 
 struct arguments {
-    std::string before, after, placement = "blocks";
+    std::string before, after;
     std::size_t copies = 1;
-    bool huge_face = false;
 };
 
-/// Copies of a frame on a square grid in x and y, numbered consecutively, and optionally one face
-/// below them all.
+/// Copies of a frame on a square grid in x and y, numbered consecutively.
 class tiles {
   public:
     tiles(const arguments& given)
         : before_(ccd::io::read_mesh(given.before)),
           after_(ccd::io::read_mesh(given.after)),
           copies_(given.copies),
-          side_(static_cast<std::size_t>(std::ceil(std::sqrt(double(given.copies))))),
-          huge_face_(given.huge_face) {
+          side_(static_cast<std::size_t>(std::ceil(std::sqrt(double(given.copies))))) {
         ccd::io::require_same_topology(before_, given.before, after_, given.after);
         double least = std::numeric_limits<double>::infinity(), most = -least;
         for (const auto* frame : {&before_, &after_})
@@ -54,26 +51,19 @@ class tiles {
         width_ = 1.25 * (most - least);
     }
 
-    std::size_t faces() const { return copies_ * before_.faces.size() + (huge_face_ ? 1 : 0); }
-    std::size_t vertices() const { return copies_ * size() + (huge_face_ ? 3 : 0); }
+    std::size_t faces() const { return copies_ * before_.faces.size(); }
+    std::size_t vertices() const { return copies_ * size(); }
     std::array<vertex_number, 3> face(std::size_t i) const {
         const vertex_number first = i / before_.faces.size() * size();
-        if (i == copies_ * before_.faces.size()) return {first, first + 1, first + 2};
         const ccd::face& f = before_.faces[i % before_.faces.size()];
         return {first + f[0], first + f[1], first + f[2]};
     }
-    ccd::point<double> before(vertex_number v) const { return at(before_, v, -1); }
-    ccd::point<double> after(vertex_number v) const { return at(after_, v, 1); }
+    ccd::point<double> before(vertex_number v) const { return at(before_, v); }
+    ccd::point<double> after(vertex_number v) const { return at(after_, v); }
 
   private:
     std::size_t size() const { return before_.vertices.size(); }
-    ccd::point<double> at(const ccd::mesh& frame, vertex_number v, double sign) const {
-        if (v >= copies_ * size()) {
-            const double corner[3][2] = {{-2, -2}, {4, -2}, {-2, 4}};
-            const auto* c = corner[v - copies_ * size()];
-            const double far = width_ * static_cast<double>(side_);
-            return {c[0] * far, c[1] * far, sign * width_};
-        }
+    ccd::point<double> at(const ccd::mesh& frame, vertex_number v) const {
         const std::size_t copy = v / size();
         const ccd::point<double>& p = frame.vertices[v % size()];
         return {p.x + width_ * static_cast<double>(copy % side_),
@@ -82,28 +72,20 @@ class tiles {
 
     ccd::mesh before_, after_;
     std::size_t copies_, side_;
-    bool huge_face_;
     double width_ = 0;
 };
 
-/// The rank that has face i.
-std::size_t rank_of(const std::string& placement, std::size_t i, std::size_t faces,
-                    std::size_t ranks) {
-    if (placement == "interleaved") return i % ranks;
-    if (placement == "one") return ranks - 1;
-    if (placement == "empty") return i % ((ranks + 1) / 2) * 2;
-    return i / ((faces + ranks - 1) / ranks);
-}
-
+/// A rank's block of the faces.
 struct share {
     std::vector<vertex_number> numbers;
     std::vector<ccd::point<double>> before, after;
     std::vector<ccd::face> faces;
 
-    share(const tiles& all, const std::string& placement, const exchanger& ranks) {
+    share(const tiles& all, const exchanger& ranks) {
         std::unordered_map<vertex_number, ccd::vertex_index> places;
-        for (std::size_t i = 0; i < all.faces(); ++i) {
-            if (rank_of(placement, i, all.faces(), ranks.size()) != ranks.rank()) continue;
+        const std::size_t block = (all.faces() + ranks.size() - 1) / ranks.size();
+        for (std::size_t i = block * ranks.rank();
+             i < std::min(block * (ranks.rank() + 1), all.faces()); ++i) {
             ccd::face& f = faces.emplace_back();
             const auto corners = all.face(i);
             for (std::size_t k = 0; k < 3; ++k) {
@@ -170,8 +152,8 @@ std::uint64_t hash_of_whole(const tiles& all) {
 nlohmann::ordered_json measured(const arguments& given, exchanger& ranks) {
     const tiles all(given);
     nlohmann::ordered_json row{{"faces", all.faces()}, {"ranks", nlohmann::ordered_json::array()}};
-    if (ranks.size() == 1 && given.placement == "blocks") row["hash_of_whole"] = hash_of_whole(all);
-    const share own(all, given.placement, ranks);
+    if (ranks.size() == 1) row["hash_of_whole"] = hash_of_whole(all);
+    const share own(all, ranks);
     const auto found =
         ccd::mpi::step(MPI_COMM_WORLD, {own.numbers, {own.before, own.after}, own.faces},
                        {.threads = 1, .count_candidates = true, .times = true});
@@ -209,9 +191,6 @@ int run(int argc, char** argv) {
     app.add_option("FRAME0", given.before)->required();
     app.add_option("FRAME1", given.after)->required();
     app.add_option("--copies", given.copies, "Copies side by side")->check(CLI::Range(1, 1 << 20));
-    app.add_option("--placement", given.placement, "Distribution of faces")
-        ->check(CLI::IsMember({"blocks", "interleaved", "one", "empty"}));
-    app.add_flag("--huge-face", given.huge_face, "One more face, which passes through all copies");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

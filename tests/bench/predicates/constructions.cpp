@@ -1,7 +1,5 @@
 // Times of whole constructions, the examples of examples/geometry: with exact signs, with plain
 // doubles in the same code, and by CGAL. All points are in general position.
-#include "tests/bench/predicates/constructions.hpp"
-
 #include <cmath>
 #include <functional>
 #include <random>
@@ -12,7 +10,7 @@
 #include "examples/geometry/delaunay3d.hpp"
 #include "examples/geometry/polygons.hpp"
 #include "tests/bench/harness.hpp"
-#include "tests/bench/predicates/predicate_peers.hpp"
+#include "tests/bench/predicates/peers.hpp"
 
 namespace bench {
 namespace {
@@ -51,7 +49,7 @@ void add_construction(rows& table, int repeats, std::size_t inputs, const std::s
     std::array<std::size_t, 3> results{};
     std::vector<std::function<void()>> passes{[&] { results[0] = exact(); },
                                               [&] { results[1] = plain(); }};
-    if (have_cgal) passes.push_back([&] { results[2] = cgal(); });
+    if constexpr (have_cgal) passes.push_back([&] { results[2] = cgal(); });
     const auto timings = race(passes, repeats);
     if (results[0] != results[1] || (have_cgal && results[0] != results[2]))
         throw std::runtime_error(name + ": " + std::to_string(results[0]) + ", " +

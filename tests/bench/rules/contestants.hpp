@@ -166,8 +166,6 @@ contestant contestant_of(std::string name) {
              pass([](auto& s, auto i) { s.signs[i] = A::sign(s.a[i]); })}};
 }
 
-contestant explained_contestant();
-contestant explained_contestant_of_32_sources();
 contestant boost_interval_contestant();
 contestant mpfi_contestant();
 contestant arb_contestant();

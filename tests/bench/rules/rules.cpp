@@ -1,5 +1,6 @@
 // The cost of each operation under each bound rule, and of explained errors. Plain double and the
 // intervals of Boost.Interval, MPFI and arb, if installed, are timed next to them.
+#include <errbound/explain/explain.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/validation/rule_list.hpp>
 #include <numeric>
@@ -39,6 +40,20 @@ struct full_operators : operators<errbound::tracked<double, errbound::affine>> {
     }
 };
 
+/// Each operand is a sum of products in separate scopes. All operands have the same scopes.
+struct explained_operators
+    : operators<errbound::tracked<double, errbound::explained<errbound::tight>>> {
+    using number = errbound::tracked<double, errbound::explained<errbound::tight>>;
+    static number made(double x, double y) {
+        number sum = 0;
+        for (int i = 1; i < 32; ++i) {
+            const errbound::scope s("product " + std::to_string(i));
+            sum += number(x) * number(y);
+        }
+        return sum;  // has the errors of the products and of the sum
+    }
+};
+
 std::vector<contestant> all_contestants() {
     std::vector<contestant> all;
     all.push_back(contestant_of<double, plain_operators>("plain double"));
@@ -48,8 +63,9 @@ std::vector<contestant> all_contestants() {
             contestant_of<number, operators<number>, errbound::has_division<Rule>>(Rule::name));
     });
     all.push_back(contestant_of<full_operators::number, full_operators>("affine, 16 terms"));
-    all.push_back(explained_contestant());
-    all.push_back(explained_contestant_of_32_sources());
+    using explained = explained_operators::number;
+    all.push_back(contestant_of<explained>("explained, one source"));
+    all.push_back(contestant_of<explained, explained_operators>("explained, 32 sources"));
     all.push_back(boost_interval_contestant());
 #ifdef ERRBOUND_HAVE_MPFI
     all.push_back(mpfi_contestant());

@@ -180,7 +180,7 @@ class Report(unittest.TestCase):
         quantiles = [f"q{p}" for p in (1, 25, 50, 75, 99)]
         values = range(5)
         with open(self.out / "tightness.csv", "w") as file:
-            print("part,rule,number,quantity,measure", *quantiles, sep=",", file=file)
+            print("part,rule,number,quantity,measure,q01,q25,median,q75,q99", file=file)
             for rule in range(14):
                 for quantity in range(33):
                     print("expressions", f"rule{rule}", "double", f"quantity {quantity}", "bound/error",

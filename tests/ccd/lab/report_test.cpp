@@ -53,32 +53,6 @@ TEST_F(Report, CsvQuotesWhatNeedsIt) {
               "a,b,c\n\"x, \"\"y\"\"\",,0.1\n3,,\n");
 }
 
-TEST_F(Report, PartsAreFoundOnlyUndamagedAndWithTheSameDependencies) {
-    const auto part = [](const std::string& name, const row& depends_on) {
-        return lab::part{name, depends_on, "methods", 1, {}, {}};
-    };
-    const lab::part p = part("cloth, vf: errors", {{"program", "p"}, {"data", "d"}});
-    const rows kept{{{"method", "exact"}, {"ns", 0.1}, {"bound", nullptr}}};
-    EXPECT_FALSE(lab::stored_part(folder_, p));
-    lab::store_part(folder_, p, kept);
-    EXPECT_EQ(lab::stored_part(folder_, p), kept);
-    EXPECT_FALSE(lab::stored_part(folder_, part("cloth; vf: errors", p.depends_on)));
-    EXPECT_FALSE(lab::stored_part(folder_, part(p.name, {{"program", "p"}, {"data", "e"}})));
-
-    const fs::path path = lab::path_of_part(folder_, p.name);
-    const std::string text = errbound::support::read_whole(path);
-    std::string changed = text;
-    changed.replace(text.find("0.1"), 3, "0.2");
-    for (const std::string& damaged :
-         {changed, text.substr(0, text.size() / 2), std::string(), std::string("[]"),
-          std::string("{\"rows\":[]}"), std::string("{\"rows\":[],\"depends_on\":1}")}) {
-        errbound::support::write_whole(path, damaged);
-        EXPECT_FALSE(lab::stored_part(folder_, p)) << damaged;
-    }
-    errbound::support::write_whole(path, text);
-    EXPECT_TRUE(lab::stored_part(folder_, p));
-}
-
 TEST_F(Report, PartsNeedAFolder) {
     EXPECT_THROW(lab::make_folder(write("file", "") / "parts"), errbound::support::file_error);
 }
@@ -206,21 +180,6 @@ TEST_F(Report, FirstContactsAreInBracketsOfTwoNeighbours) {
     EXPECT_FALSE(r.contains("broken")) << r;
     EXPECT_TRUE(
         lab::find_contacts(*data, kind::edge_edge, lab::sizes(true), 1, [](double) {}).empty());
-}
-
-TEST_F(Report, FirstContactsOfStressAreOfBothKinds) {
-    lab::sample_sizes few = lab::sizes(true);
-    few.repeats = 1;
-    for (const lab::family& family : lab::families()) {
-        if (family.name != "touch-start" && family.name != "double-root") continue;
-        const auto data = lab::data_of(family, 2, 1);
-        for (const kind which : ccd::stored_kinds) {
-            const row r = lab::find_contacts(*data, which, few, 1, [](double) {}).at(0);
-            EXPECT_EQ(r["queries"], 2 * family.knobs.size());
-            EXPECT_GT(r["contacts"], 0);
-            EXPECT_FALSE(r.contains("broken")) << r;
-        }
-    }
 }
 
 TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {

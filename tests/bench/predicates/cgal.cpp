@@ -1,54 +1,19 @@
+#include <CGAL/Arr_segment_traits_2.h>
+#include <CGAL/Arrangement_2.h>
+#include <CGAL/Boolean_set_operations_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 
-#include "tests/bench/predicates/predicate_peers.hpp"
+#include <iterator>
+
+#include "tests/bench/predicates/peers.hpp"
 
 namespace bench {
 namespace {
 
 using kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-/// CGAL's signs are −1, 0 and 1.
-errbound::sign_type ours(int sign) {
-    return static_cast<errbound::sign_type>(sign + 1);
-}
-auto converted(const std::array<double, 2>& p) {
-    return kernel::Point_2(p[0], p[1]);
-}
-auto converted(const std::array<double, 3>& p) {
-    return kernel::Point_3(p[0], p[1], p[2]);
-}
-
-int decide(const orient2d_form&, const auto&... p) {
-    return CGAL::orientation(p...);
-}
-/// The opposite sign: errbound/predicates.hpp.
-int decide(const orient3d_form&, const auto&... p) {
-    return -CGAL::orientation(p...);
-}
-int decide(const incircle_form&, const auto&... p) {
-    return CGAL::side_of_oriented_circle(p...);
-}
-int decide(const insphere_form&, const auto&... p) {
-    return -CGAL::side_of_oriented_sphere(p...);
-}
-
-}  // namespace
-
-template <class Form>
-void decide_by_cgal(const set_of<Form>& set, std::size_t count, signs& out) {
-    for (std::size_t i = 0; i < count; ++i)
-        out[i] =
-            set.with(i, [](const auto&... p) { return ours(decide(Form(), converted(p)...)); });
-}
-template void decide_by_cgal<orient2d_form>(const set_of<orient2d_form>&, std::size_t, signs&);
-template void decide_by_cgal<orient3d_form>(const set_of<orient3d_form>&, std::size_t, signs&);
-template void decide_by_cgal<incircle_form>(const set_of<incircle_form>&, std::size_t, signs&);
-template void decide_by_cgal<insphere_form>(const set_of<insphere_form>&, std::size_t, signs&);
-
-namespace {
-
 using lazy_kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 
 template <class K>
@@ -86,9 +51,11 @@ cgal_pass pass_over(const input_set<D, N>& set, const Decide& decide) {
         (std::make_index_sequence<N>());
     };
     constexpr bool is_bool = std::is_same_v<decltype(call(0)), bool>;
-    return {[call](signs& out) {
-                for (std::size_t i = 0; i < out.size(); ++i)
-                    out[i] = ours(is_bool ? (call(i) ? 1 : -1) : static_cast<int>(call(i)));
+    return {[call](std::size_t count, signs& out) {
+                for (std::size_t i = 0; i < count; ++i) {
+                    const int sign = is_bool ? (call(i) ? 1 : -1) : static_cast<int>(call(i));
+                    out[i] = static_cast<errbound::sign_type>(1 + sign);
+                }
             },
             is_bool};
 }
@@ -110,10 +77,12 @@ template <class K, std::size_t D>
 void add_all(pass_of<K, D, 3>& pass) {
     pass.add(D == 2 ? "compare_distances2d" : "compare_distances3d",
              [](auto&... p) { return CGAL::compare_distance_to_point(p...); });
+    if constexpr (D == 2) pass.add("orient2d", [](auto&... p) { return CGAL::orientation(p...); });
 }
 template <class K>
 void add_all(pass_of<K, 2, 4>& pass) {
     using segment = typename K::Segment_2;
+    pass.add("incircle", [](auto&... p) { return CGAL::side_of_oriented_circle(p...); });
     pass.add("compare_lengths2d", typename K::Compare_distance_2());
     pass.add("compare_slopes", [](auto& a, auto& b, auto& c, auto& d) {
         return CGAL::compare_slope(segment(a, b), segment(c, d));
@@ -136,6 +105,8 @@ void add_all(pass_of<K, 2, 4>& pass) {
 template <class K>
 void add_all(pass_of<K, 3, 4>& pass) {
     using segment = typename K::Segment_3;
+    // The opposite sign: errbound/predicates.hpp.
+    pass.add("orient3d", [](auto&... p) { return -CGAL::orientation(p...); });
     pass.add("compare_lengths3d", typename K::Compare_distance_3());
     pass.add("segments_intersect3d", [](auto& a, auto& b, auto& c, auto& d) {
         return CGAL::do_intersect(segment(a, b), segment(c, d));
@@ -146,6 +117,7 @@ void add_all(pass_of<K, 3, 4>& pass) {
 }
 template <class K>
 void add_all(pass_of<K, 3, 5>& pass) {
+    pass.add("insphere", [](auto&... p) { return -CGAL::side_of_oriented_sphere(p...); });
     pass.add("segment_intersects_triangle", [](auto& p, auto& q, auto&... corner) {
         return CGAL::do_intersect(typename K::Segment_3(p, q), typename K::Triangle_3(corner...));
     });
@@ -233,5 +205,36 @@ ERRBOUND_CGAL_PASSES(3, 5)
 ERRBOUND_CGAL_PASSES(3, 6)
 ERRBOUND_CGAL_PASSES(3, 8)
 #undef ERRBOUND_CGAL_PASSES
+
+namespace {
+
+CGAL::Polygon_2<lazy_kernel> polygon_of(const plane_points& points) {
+    CGAL::Polygon_2<lazy_kernel> polygon;
+    for (const auto& p : points) polygon.push_back({p[0], p[1]});
+    return polygon;
+}
+
+}  // namespace
+
+std::size_t cgal_delaunay3d(const space_points& points) {
+    std::vector<kernel::Point_3> converted;
+    for (const auto& p : points) converted.emplace_back(p[0], p[1], p[2]);
+    const CGAL::Delaunay_triangulation_3<kernel> result(converted.begin(), converted.end());
+    return result.number_of_finite_cells();
+}
+std::size_t cgal_arrangement(const plane_points& ends) {
+    std::vector<lazy_kernel::Segment_2> segments;
+    for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
+        segments.emplace_back(lazy_kernel::Point_2(ends[i][0], ends[i][1]),
+                              lazy_kernel::Point_2(ends[i + 1][0], ends[i + 1][1]));
+    CGAL::Arrangement_2<CGAL::Arr_segment_traits_2<lazy_kernel>> result;
+    CGAL::insert(result, segments.begin(), segments.end());
+    return result.number_of_vertices();
+}
+std::size_t cgal_intersection(const plane_points& first, const plane_points& second) {
+    std::vector<CGAL::Polygon_with_holes_2<lazy_kernel>> result;
+    CGAL::intersection(polygon_of(first), polygon_of(second), std::back_inserter(result));
+    return result.size();
+}
 
 }  // namespace bench
