@@ -74,7 +74,7 @@ constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const 
 /// i; second[i][j] is the number of this set without that row, among the sets of K − 1 rows.
 template <std::size_t N, std::size_t K>
 struct row_sets {
-    static constexpr auto all = [] {
+    static constexpr auto all = []() {
         std::array<unsigned, 1U << N> sets{};
         std::size_t count = 0;
         for (unsigned set = 0; set < 1U << N; ++set)
@@ -88,7 +88,7 @@ struct row_sets {
         while (all.first[i] != set) ++i;
         return i;
     }
-    static constexpr std::pair<table, table> rows_and_others = [] {
+    static constexpr std::pair<table, table> rows_and_others = []() {
         std::pair<table, table> t{};
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t row = 0, j = 0; row < N; ++row) {

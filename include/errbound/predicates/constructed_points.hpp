@@ -5,15 +5,17 @@
 // Nothing is rounded: coordinates are anchor + x/w, for an explicit anchor and expressions x and w
 // of the parents. The predicate's expression is evaluated over fractions with such denominators.
 // This is a predicate of the parents of constructed points, and of the explicit points, with its
-// own filter. A sign is zero if a point does not exist (w = 0). Constructed points copy their
-// parents. The coordinates of pointers and of types that only refer to them must outlive them. No
-// rounding, no allocation. Cost where the filter decides: 2 to 10 times that of explicit points.
+// own filter. A sign is zero if a point does not exist (w = 0). Parents may be constructed, too.
+// Constructed points copy their parents. The coordinates of pointers and of types that only refer
+// to them must outlive them. No rounding, no allocation. Cost where the filter decides: 2 to 10
+// times that of explicit points.
 #pragma once
 
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <errbound/predicates.hpp>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -98,9 +100,11 @@ namespace filters {
 template <class Construction, class... Parents>
 inline constexpr bool is_constructed<constructed_point<Construction, Parents...>> = true;
 
-/// The denominators of all constructed points of a call, and their signs, none of them zero.
-template <class... W>
+/// The denominators of all constructed points of a call, and their signs, none of them zero. If
+/// parents are constructed, too, their fractions have a higher level.
+template <int Level, class... W>
 struct denominators {
+    static constexpr int level = Level;
     std::tuple<W...> w;
     std::array<sign_type, sizeof...(W)> signs;
     using unit = std::integer_sequence<int, (static_cast<void>(sizeof(W)), 0)...>;
@@ -177,14 +181,18 @@ inline constexpr bool is_constructed_coordinate = false;
 template <std::size_t I, class A, class X, class D>
 inline constexpr bool is_constructed_coordinate<constructed_coordinate<I, A, X, D>> = true;
 template <class X>
-inline constexpr bool is_fraction = is_constructed_coordinate<X>;
+inline constexpr int fraction_level = std::numeric_limits<int>::max();
 template <class N, class D, class P>
-inline constexpr bool is_fraction<fraction<N, D, P>> = true;
+inline constexpr int fraction_level<fraction<N, D, P>> = D::level;
+template <std::size_t I, class A, class X, class D>
+inline constexpr int fraction_level<constructed_coordinate<I, A, X, D>> = D::level;
 template <class X>
-concept fraction_operand = is_fraction<X>;
-/// A number of the expression without a denominator.
-template <class X>
-concept whole_operand = !is_fraction<X>;
+concept fraction_operand = fraction_level<X> < std::numeric_limits<int>::max();
+template <class X, class Y>
+concept of_equal_level = (fraction_level<X> == fraction_level<Y>);
+/// A number without denominators of X's level: an int, a number, or a fraction of a higher level.
+template <class Y, class X>
+concept whole_operand = (fraction_level<Y> > fraction_level<X>);
 
 /// x times the powers of the denominators by which `To` exceeds `From`.
 template <class To, class From, std::size_t I = 0, class X, class Denominators>
@@ -218,19 +226,19 @@ constexpr auto whole_fraction(const Y& y, const D& over) {
     return make_fraction<typename D::unit>(y, over);
 }
 
-template <fraction_operand X, fraction_operand Y>
+template <fraction_operand X, of_equal_level<X> Y>
 constexpr auto operator+(const X& x, const Y& y) {
     return fraction_sum<false>(as_fraction(x), as_fraction(y));
 }
-template <fraction_operand X, whole_operand Y>
+template <fraction_operand X, whole_operand<X> Y>
 constexpr auto operator+(const X& x, const Y& y) {
     return fraction_sum<false>(as_fraction(x), whole_fraction(y, x.over));
 }
-template <whole_operand X, fraction_operand Y>
+template <fraction_operand Y, whole_operand<Y> X>
 constexpr auto operator+(const X& x, const Y& y) {
     return y + x;
 }
-template <fraction_operand X, fraction_operand Y>
+template <fraction_operand X, of_equal_level<X> Y>
 constexpr auto operator-(const X& x, const Y& y) {
     return fraction_sum<true>(as_fraction(x), as_fraction(y));
 }
@@ -249,7 +257,7 @@ constexpr auto operator-(const constructed_coordinate<I, A, X, D>& x,
                                      x.over);
     }
 }
-template <fraction_operand X, whole_operand Y>
+template <fraction_operand X, whole_operand<X> Y>
 constexpr auto operator-(const X& x, const Y& y) {
     if constexpr (is_constructed_coordinate<X> && !std::same_as<Y, int>) {
         using powers = typename decltype(as_fraction(x))::powers;
@@ -258,7 +266,7 @@ constexpr auto operator-(const X& x, const Y& y) {
         return fraction_sum<true>(as_fraction(x), whole_fraction(y, x.over));
     }
 }
-template <whole_operand X, fraction_operand Y>
+template <fraction_operand Y, whole_operand<Y> X>
 constexpr auto operator-(const X& x, const Y& y) {
     if constexpr (is_constructed_coordinate<Y> && !std::same_as<X, int>) {
         using powers = typename decltype(as_fraction(y))::powers;
@@ -267,7 +275,7 @@ constexpr auto operator-(const X& x, const Y& y) {
         return fraction_sum<true>(whole_fraction(x, y.over), as_fraction(y));
     }
 }
-template <fraction_operand X, fraction_operand Y>
+template <fraction_operand X, of_equal_level<X> Y>
 constexpr auto operator*(const X& x, const Y& y) {
     const auto& a = as_fraction(x);
     const auto& b = as_fraction(y);
@@ -275,11 +283,11 @@ constexpr auto operator*(const X& x, const Y& y) {
                                           typename std::remove_cvref_t<decltype(b)>::powers()));
     return make_fraction<powers>(a.number * b.number, x.over);
 }
-template <fraction_operand X, whole_operand Y>
+template <fraction_operand X, whole_operand<X> Y>
 constexpr auto operator*(const X& x, const Y& y) {
     return as_fraction(x) * whole_fraction(y, x.over);
 }
-template <whole_operand X, fraction_operand Y>
+template <fraction_operand Y, whole_operand<Y> X>
 constexpr auto operator*(const X& x, const Y& y) {
     return whole_fraction(x, y.over) * as_fraction(y);
 }
@@ -325,6 +333,15 @@ struct argument_traits<given, Dimension> {
     using parents = points<Dimension>;
     static constexpr bool constructed = false;
 };
+
+/// 0, or one more than that of the expression whose arguments are constructed, too.
+template <class F>
+inline constexpr int constructed_level = 0;
+template <class Shape, class F, class... Arguments>
+struct constructed_expression;
+template <class Shape, class F, class... Arguments>
+inline constexpr int constructed_level<constructed_expression<Shape, F, Arguments...>> =
+    constructed_level<F> + 1;
 
 /// An expression of all parents: F at the constructed points and the explicit points.
 template <class Shape, class F, class... Arguments>
@@ -378,8 +395,8 @@ struct constructed_expression {
         const auto implicits = std::tuple_cat(implicit<I>(parents)...);
         return std::apply(
             [&](const auto&... q) {
-                const denominators<std::remove_cvref_t<decltype(q.w)>...> over{{q.w...},
-                                                                               {sign_of(q.w)...}};
+                const denominators<constructed_level<F>, std::remove_cvref_t<decltype(q.w)>...>
+                    over{{q.w...}, {sign_of(q.w)...}};
                 for (const sign_type s : over.signs)
                     if (s == sign_type::zero) return s;
                 for (const sign_type s : over.signs)
@@ -402,7 +419,7 @@ struct constructed_expression {
 };
 template <class Shape, class F, class... Arguments>
 inline constexpr bool is_sign_of_fraction<constructed_expression<Shape, F, Arguments...>> =
-    !branches<Shape, F>;
+    !branches<Shape, F> || is_sign_of_fraction<F>;
 /// The degrees of the options are those of the predicate's own coordinates.
 template <class Options>
 struct constructed_options : Options {

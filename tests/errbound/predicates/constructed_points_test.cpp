@@ -232,6 +232,20 @@ TEST(ConstructedPoints, InCustomPredicates) {
     compare_constructed<line_line, weighted_midpoint<2>>("parabola of two", above_parabola);
 }
 
+// Parents are constructed, or other arguments are.
+constexpr auto determinant_of_two = errbound::predicate<errbound::points<2, 2>>(
+    [](const auto& p, const auto& q) { return p[0] * q[1] - p[1] * q[0]; });
+TEST(ConstructedPoints, OfConstructedPoints) {
+    using errbound::with_constructed;
+    compare_constructed<given, given, given, given, line_line>(
+        "determinant", with_constructed<line_line, given>(determinant_of_two));
+    compare_constructed<given, weighted_midpoint<2>, given, given, line_line>(
+        "parabola", with_constructed<line_line, given>(above_parabola));
+    const auto with_two = with_constructed<line_line, given, given>(errbound::orient2d);
+    compare_constructed<given, given, line_line, given, weighted_midpoint<2>, given>("orient2d",
+                                                                                     with_two);
+}
+
 TEST(ConstructedPoints, AsArguments) {
     using enum sign_type;
     const point2 a{0, 0}, b{3, 3}, c{0, 2}, d{2, 0};  // the lines meet at (1, 1)
@@ -245,6 +259,10 @@ TEST(ConstructedPoints, AsArguments) {
     const auto m = errbound::weighted_midpoint_of<2>(a, point2{4, 4}, 3.0, 1.0);  // (1, 1) too
     EXPECT_EQ(errbound::compare_distances2d(point2{7, -5}, m, i), zero);
     EXPECT_EQ(errbound::compare_distances2d(m, i, a), negative);
+    const auto j =
+        errbound::line_line_point(i, point2{3, 1}, point2{2, 0}, point2{2, 5});  // (2, 1)
+    EXPECT_EQ(errbound::orient2d(j, i, point2{7, 1}), zero);
+    EXPECT_EQ(errbound::orient2d(j, i, a), positive);
     errbound::predicate_report report;
     EXPECT_EQ(errbound::orient2d(report, i, i, i), zero);
     const auto of_arrays = [] {
