@@ -14,7 +14,6 @@
 
 #include "ccd/batch/checks.hpp"
 #include "ccd/batch/threads.hpp"
-#include "ccd/bodies/swept_points.hpp"
 #include "ccd/contact/turning/two_bodies.hpp"
 #include "ccd/exact/finite.hpp"
 #include "ccd/step/checks.hpp"
@@ -41,6 +40,7 @@ void include(const box<double>& b, box<double>& all) {
     }
 }
 constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double largest = std::numeric_limits<double>::max();
 constexpr box<double> empty_box{{inf, inf, inf}, {-inf, -inf, -inf}};
 
 /// Elements of N vertices of one body, in an order that gathers neighbours, and a tree of boxes.
@@ -68,16 +68,72 @@ struct element_sets {
     element_set<3> faces;
 };
 
-/// A body during one step. Bodies that move are wider by `distance`.
-struct swept_body {
-    detail::swept_points points;
-    detail::control_maps maps;
-    double distance;
-
-    template <class Part>
-    box<double> box_of(const Part& part) const {
-        return detail::widened(points.box_of(part), distance);
+/// A body during one step.
+class swept_body {
+  public:
+    /// Divides the step until points are within 2^-10 of their chords, in units of their distance
+    /// from the centre.
+    swept_body(const body_motion& body, double distance) : motion(body), distance_(distance) {
+        const double error = motion.chords().error_per_length;
+        int parts = 1;
+        while (parts < 8 && error > 0x1p-10 * parts * parts) parts *= 2;
+        for (int i = 0; i < parts; ++i)
+            chords_.emplace_back(body, static_cast<double>(i) / parts,
+                                 static_cast<double>(i + 1) / parts);
+        if (!(chords_[0].error_per_length < error)) chords_ = {motion.chords()};
     }
+
+    /// Returns a box of the ways of the points of a box at rest, widened by the distance.
+    box<double> box_of(const box<double>& b) const {
+        box<double> all = empty_box;
+        for (const auto& chords : chords_) {
+            const std::array centre{chords.centre.x, chords.centre.y, chords.centre.z};
+            std::array<double, 6> least = chords.shift, greatest = chords.shift;
+            double length = 0;
+            for (std::size_t j = 0; j < 3; ++j) {
+                const double low = b.low[j] - centre[j], high = b.high[j] - centre[j];
+                length += std::max(std::abs(low), std::abs(high));
+                for (std::size_t k = 0; k < 6; ++k) {
+                    const double p = chords.column[j][k] * low, q = chords.column[j][k] * high;
+                    least[k] += std::min(p, q);
+                    greatest[k] += std::max(p, q);
+                }
+            }
+            include(least, greatest, chords.error_of(length), all);
+        }
+        return all;
+    }
+    box<double> box_of(const point<double>& x) const {
+        box<double> all = empty_box;
+        for (const auto& chords : chords_) {
+            const auto& c = chords.centre;
+            const point<double> y{x.x - c.x, x.y - c.y, x.z - c.z};
+            const auto [p, q] = chords.ends_of(y);
+            const std::array<double, 6> ends{p.x, p.y, p.z, q.x, q.y, q.z};
+            include(ends, ends, chords.error_of(std::abs(y.x) + std::abs(y.y) + std::abs(y.z)),
+                    all);
+        }
+        return all;
+    }
+
+    const prepared_motion motion;
+
+  private:
+    /// Extends `all` by the chords' ends. Their error also covers the rounding here.
+    void include(const std::array<double, 6>& least, const std::array<double, 6>& greatest,
+                 double error, box<double>& all) const {
+        const double by = distance_ * (1 + 0x1p-40) + error;
+        const bool bounded = by < 0x1p900;  // otherwise numbers may have overflowed
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double low = std::min(least[i], least[3 + i]) - by,
+                         high = std::max(greatest[i], greatest[3 + i]) + by;
+            all.low[i] = bounded ? std::min(all.low[i], low) : -largest;
+            all.high[i] = bounded ? std::max(all.high[i], high) : largest;
+        }
+    }
+
+    std::vector<detail::motion_chords> chords_;
+    double distance_;
 };
 
 /// A body's mesh, and trees of its elements at rest.
@@ -254,9 +310,7 @@ struct body_steps::state {
         for (std::size_t b = 0; b < motions.size(); ++b) {
             if (bodies[b].rest().vertices.empty()) continue;
             all.index.push_back(b);
-            all.body.push_back({detail::swept_points(motions[b], bodies[b].extent()),
-                                detail::control_maps(motions[b]),
-                                moves(motions[b]) ? distance : 0});
+            all.body.emplace_back(motions[b], moves(motions[b]) ? distance : 0);
             all.box_of_all.push_back(all.body.back().box_of(bodies[b].extent()));
         }
         return all;
@@ -276,57 +330,61 @@ struct body_steps::state {
         return all;
     }
 
+    /// The elements of a body near another.
+    struct near_elements {
+        const body_at_rest* body;
+        const prepared_motion* motion;
+        element_sets elements;
+
+        bool has(vertex_index v) const {
+            return v - body->first_vertex() < body->rest().vertices.size();
+        }
+        body_point point_of(vertex_index v) const {
+            return motion->at(body->rest().vertices[v - body->first_vertex()]);
+        }
+    };
+
     /// Decides all pairs of element sets whose boxes touch.
-    template <kind K, std::size_t A, std::size_t B>
-    void decide(const body_steps& steps, const std::array<std::size_t, 2>& of,
-                const std::array<const detail::control_maps*, 2>& maps, const element_set<A>& a,
-                const element_set<B>& b, std::span<const body_motion> motions,
-                const body_step_options& options, detail::per_thread<findings>& found) const {
-        if (a.elements.empty() || b.elements.empty()) return;
-        const body_at_rest &first = bodies[of[0]], &second = bodies[of[1]];
+    template <kind K, class First, class Second>
+    static void decide(const near_elements& a, const First& of_a, const near_elements& b,
+                       const Second& of_b, const body_step_options& options,
+                       detail::per_thread<findings>& found) {
+        if (of_a.elements.empty() || of_b.elements.empty()) return;
         detail::for_each_touching(
-            a.tree, b.tree,
+            of_a.tree, of_b.tree,
             [&]() -> findings& {
                 detail::stop_if_requested(options.stop);
                 return found.local();
             },
             [&](findings& local, std::size_t i, std::size_t j, bool) {
-                const auto pair = detail::candidate_of(numbered(a.elements[i], first),
-                                                       numbered(b.elements[j], second));
+                const auto pair = detail::candidate_of(numbered(of_a.elements[i], *a.body),
+                                                       numbered(of_b.elements[j], *b.body));
                 ++local.candidates.template of<K>();
-                const auto points = points_of(steps.query_of(pair, motions));
-                const bool swapped = points[0].motion != &motions[of[0]];
+                const auto points = detail::with_members(
+                    pair, [&](auto... v) { return std::array{(a.has(v) ? a : b).point_of(v)...}; });
                 const first_time time = detail::first_within_of_bodies<K>(
-                    points, *maps[swapped ? 1 : 0], *maps[swapped ? 0 : 1], options.distance,
-                    options.t_max);
+                    points, options.distance, options.t_max, detail::answer::time);
                 if (time.outcome != outcome::separate)
                     local.pairs.template of<K>().push_back({detail::canonical(pair), time});
             });
     }
 
     /// Decides pairs of the swept bodies p and q.
-    void decide_bodies(const body_steps& steps, const swept_bodies& swept, std::size_t p,
-                       std::size_t q, std::span<const body_motion> motions,
+    void decide_bodies(const swept_bodies& swept, std::size_t p, std::size_t q,
                        const body_step_options& options,
                        detail::per_thread<findings>& found) const {
-        const std::size_t i = swept.index[p], j = swept.index[q];
         box<double> region = swept.box_of_all[q];
-        const element_sets a = bodies[i].near(swept.body[p], region);
-        const element_sets b = bodies[j].near(swept.body[q], region);
-        const auto decide_kind = [&]<kind K>(std::size_t first, std::size_t second,
-                                             const auto& of_first, const auto& of_second) {
-            const auto maps_of = [&](std::size_t body) {
-                return &swept.body[body == i ? p : q].maps;
-            };
-            decide<K>(steps, {first, second}, {maps_of(first), maps_of(second)}, of_first,
-                      of_second, motions, options, found);
+        const auto near = [&](std::size_t i) -> near_elements {
+            const body_at_rest& body = bodies[swept.index[i]];
+            return {&body, &swept.body[i].motion, body.near(swept.body[i], region)};
         };
-        decide_kind.operator()<kind::vertex_face>(i, j, a.vertices, b.faces);
-        decide_kind.operator()<kind::vertex_face>(j, i, b.vertices, a.faces);
-        decide_kind.operator()<kind::edge_edge>(i, j, a.edges, b.edges);
-        decide_kind.operator()<kind::vertex_edge>(i, j, a.points, b.rods);
-        decide_kind.operator()<kind::vertex_edge>(j, i, b.points, a.rods);
-        decide_kind.operator()<kind::vertex_vertex>(i, j, a.points, b.points);
+        const near_elements a = near(p), b = near(q);
+        decide<kind::vertex_face>(a, a.elements.vertices, b, b.elements.faces, options, found);
+        decide<kind::vertex_face>(b, b.elements.vertices, a, a.elements.faces, options, found);
+        decide<kind::edge_edge>(a, a.elements.edges, b, b.elements.edges, options, found);
+        decide<kind::vertex_edge>(a, a.elements.points, b, b.elements.rods, options, found);
+        decide<kind::vertex_edge>(b, b.elements.points, a, a.elements.rods, options, found);
+        decide<kind::vertex_vertex>(a, a.elements.points, b, b.elements.points, options, found);
     }
 };
 
@@ -384,8 +442,7 @@ body_step_result body_steps::run(std::span<const body_motion> motions,
         for (const auto& [p, q] : partners)
             for (const std::size_t body : {p, q}) state_->bodies[swept.index[body]].prepare();
         detail::for_each_index(partners.size(), [&](std::size_t i) {
-            state_->decide_bodies(*this, swept, partners[i].first, partners[i].second, motions,
-                                  options, found);
+            state_->decide_bodies(swept, partners[i].first, partners[i].second, options, found);
         });
     });
     collect(found, result);

@@ -134,10 +134,6 @@ first_time first_at_distance(std::span<const Motion> points, separation d, doubl
 
 }  // namespace
 
-bool is_distance(separation d) {
-    return std::isfinite(d.first) && std::isfinite(d.second) && d.first >= 0 && d.second >= 0;
-}
-
 template <kind K, class Motion>
 first_time first_of_valid(std::span<const Motion> points, separation d, double t_max, arithmetic by,
                           const polynomial_source& y) {

@@ -20,7 +20,9 @@
 namespace ccd::detail {
 
 /// True if both doubles of d are finite and not negative.
-bool is_distance(separation d);
+inline bool is_distance(separation d) {
+    return std::isfinite(d.first) && std::isfinite(d.second) && d.first >= 0 && d.second >= 0;
+}
 
 /// `floating_point_first` first runs the filters of ccd/contact/curve_filter.hpp; results are the
 /// same.

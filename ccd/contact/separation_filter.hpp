@@ -141,10 +141,26 @@ class features {
         return outcome::separate;
     }
 
+    /// True if axes certainly keep the features farther apart than d. Halves the step at most
+    /// `halvings` times.
+    bool stay_apart(int halvings) const {
+        return above_ < largest_distance && stay_apart(0, 1, halvings);
+    }
+
   private:
     static constexpr int max_depth = 10;
     static constexpr double largest_distance = 0x1p300;  ///< in scaled lengths
     static constexpr double tiny = 0x1p-500;  ///< above the square root of a product's underflow
+
+    bool stay_apart(double low, double high, int halvings) const {
+        const double middle = (low + high) / 2;
+        const vector between = nearest_at(middle);
+        const double distance = std::sqrt(dot(between, between));
+        if (!(distance > tiny) || distance < below_) return false;
+        return separated((1 / distance) * between, low, high) ||
+               (halvings > 0 && stay_apart(low, middle, halvings - 1) &&
+                stay_apart(middle, high, halvings - 1));
+    }
 
     /// True if two points are certainly nearer than d at one of two estimated times. Each moves t
     /// to where `between` would be shortest if it changed linearly. Precondition: between is

@@ -27,6 +27,9 @@ class six_numbers {
     friend six_numbers max(const six_numbers& a, const six_numbers& b) {
         return of(a, b, [](const pack& x, const pack& y) { return max(x, y); });
     }
+    friend six_numbers operator-(const six_numbers& a, double b) {
+        return of(a, a, [b](const pack& x, const pack&) { return x - pack(b); });
+    }
     /// Bit k is set if the k-th coordinate of a exceeds that of b.
     friend lanes above(const six_numbers& a, const six_numbers& b) {
         lanes all = 0;
@@ -69,14 +72,15 @@ six_numbers greatest_of(const double* points) {
         return max(six_numbers(points), greatest_of<Count - 1>(points + 6));
 }
 
-/// Same as separated_by_coordinates (ccd/exact/features.hpp), for finite coordinates.
+/// Same as separated_by_coordinates (ccd/exact/features.hpp), for finite coordinates: true if an
+/// axis separates the features by more than `gap`, up to the rounding of coordinates minus `gap`.
 template <kind K>
-bool packs_separated_by_coordinates(const double* p) {
+bool packs_separated_by_coordinates(const double* p, double gap = 0) {
     constexpr std::size_t first = kind_traits<K>::first_vertices;
     constexpr std::size_t second = kind_traits<K>::second_vertices;
     const double* q = p + 6 * first;
-    const lanes p_above = above(least_of<first>(p), greatest_of<second>(q));
-    const lanes q_above = above(least_of<second>(q), greatest_of<first>(p));
+    const lanes p_above = above(least_of<first>(p) - gap, greatest_of<second>(q));
+    const lanes q_above = above(least_of<second>(q) - gap, greatest_of<first>(p));
     return (((p_above & p_above >> 3) | (q_above & q_above >> 3)) & 7) != 0;
 }
 

@@ -4,11 +4,12 @@
 #include <ccd/methods/forms.hpp>
 #include <cmath>
 #include <errbound/bernstein.hpp>
-#include <limits>
+#include <tuple>
 
 #include "ccd/contact/moving_points.hpp"
 #include "ccd/contact/separation_filter.hpp"
 #include "ccd/contact/turning/rigid_forms.hpp"
+#include "ccd/exact/coordinate_axes.hpp"
 #include "ccd/exact/static_filter/subdivision.hpp"
 
 namespace ccd::detail {
@@ -22,6 +23,8 @@ using separation_filter::operator-;
 using separation_filter::operator*;
 using vector = point<double>;
 
+constexpr int halvings = 1;  ///< more cost more than the signs of Y and the G_i
+
 double largest_of(const vector& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }
@@ -29,148 +32,34 @@ double sum_of(const vector& p) {
     return std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
 }
 
-vector transformed(const matrix3& m, const vector& x) {
-    return {m[0][0] * x.x + m[0][1] * x.y + m[0][2] * x.z,
-            m[1][0] * x.x + m[1][1] * x.y + m[1][2] * x.z,
-            m[2][0] * x.x + m[2][1] * x.y + m[2][2] * x.z};
-}
-
-/// The control points of one feature.
-template <std::size_t N>
-struct control_points {
-    std::size_t count;
-    std::array<std::array<vector, N>, 4> at;
-
-    control_points(const control_maps& maps, const vector* from_centre,
-                   const std::array<vector, 2>& way)
-        : count(maps.count) {
-        for (std::size_t j = 0; j < count; ++j) {
-            const vector shift = way[0] + maps.along[j] * (way[1] - way[0]);
-            for (std::size_t i = 0; i < N; ++i)
-                at[j][i] = transformed(maps.linear[j], from_centre[i]) + shift;
-        }
-    }
-    /// Approximates the points at t = 1/2.
-    std::array<vector, N> middle() const {
-        static constexpr double shares[4][4] = {
-            {1}, {1 / 2., 1 / 2.}, {1 / 4., 1 / 2., 1 / 4.}, {1 / 8., 3 / 8., 3 / 8., 1 / 8.}};
-        std::array<vector, N> x{};
-        for (std::size_t j = 0; j < count; ++j)
-            for (std::size_t i = 0; i < N; ++i) x[i] = x[i] + shares[count - 1][j] * at[j][i];
-        return x;
-    }
-    motion_box box() const {
-        motion_box b{{at[0][0].x, at[0][0].y, at[0][0].z}, {at[0][0].x, at[0][0].y, at[0][0].z}};
-        for (std::size_t j = 0; j < count; ++j)
-            for (const vector& x : at[j]) {
-                const std::array c{x.x, x.y, x.z};
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    b.low[axis] = std::min(b.low[axis], c[axis]);
-                    b.high[axis] = std::max(b.high[axis], c[axis]);
-                }
-            }
-        return b;
-    }
-    /// The least, or for sign = −1 the negated greatest, projections.
-    std::array<double, 4> least_along(const vector& axis, double sign) const {
-        std::array<double, 4> least{};
-        for (std::size_t j = 0; j < count; ++j) {
-            least[j] = sign * separation_filter::dot(axis, at[j][0]);
-            for (std::size_t i = 1; i < N; ++i)
-                least[j] = std::min(least[j], sign * separation_filter::dot(axis, at[j][i]));
-        }
-        return least;
-    }
-};
-
-/// True if for all t the projections of the second feature exceed those of the first by more than
-/// `gap`, up to errors: their difference times both weights has positive control values.
-bool exceeds(const control_maps& first, const std::array<double, 4>& below,
-             const control_maps& second, const std::array<double, 4>& above, double gap) {
-    std::array<double, 7> value{};
-    for (std::size_t i = 0; i < first.count; ++i)
-        for (std::size_t j = 0; j < second.count; ++j)
-            value[i + j] += first.weight[i] * second.weight[j] * (above[j] + below[i] - gap);
-    double least = value[0];
-    for (std::size_t k = 1; k < first.count + second.count - 1; ++k)
-        least = std::min(least, value[k]);
-    return least > 0;
-}
-
 }  // namespace
 
+/// Features whose chords stay farther apart than the distance plus both errors are separate: their
+/// points are that near to the chords at each time. 1 + 2^-40 covers the rounding of the sum.
 template <kind K>
-bool has_two_bodies(std::span<const body_point> points) {
-    constexpr std::size_t first = kind_traits<K>::first_vertices;
-    for (std::size_t i = 1; i < points.size(); ++i)
-        if (i != first && points[i].motion != points[i - 1].motion) return false;
-    return true;
-}
-
-template <kind K>
-body_filter<K>::body_filter(std::span<const body_point> points, const control_maps& first_maps,
-                            const control_maps& second_maps)
-    : points_(points), a_(first_maps), b_(second_maps) {
-    // Any centre serves a body at rest: x = (x − centre) + centre.
-    const auto centre_of = [&](const control_maps& maps, std::size_t i) {
-        return maps.motion == control_maps::motion_kind::rests ? points[i].rest : maps.centre;
-    };
-    const vector a = centre_of(a_, 0), b = centre_of(b_, first);
-    for (std::size_t i = 0; i < count; ++i) from_centre_[i] = points[i].rest - (i < first ? a : b);
-    const auto way_of = [](const control_maps& maps, const vector& centre) {
-        if (maps.motion == control_maps::motion_kind::rests) return std::array{centre, centre};
-        return std::array{maps.p0, maps.p1};
-    };
-    a_way_ = way_of(a_, a);
-    b_way_ = way_of(b_, b);
-}
-
-/// Let u = 2^-53. The size S has two terms for each feature. One is its body's largest_entry times
-/// the largest |x|₁ from the centre. The other is the largest |p|₁ of the centre's way. A
-/// coordinate of a control point has an error of at most 30uS. The first terms have 25u from the
-/// maps, 1u from the difference `from_centre`, and 3u from products and sums. The second terms have
-/// 9u from the shift. The last addition has 1u of both. A projection to an axis of length at
-/// most 1.001 multiplies this by at most |axis|₁ <= 1.74, and adds 1.74·3.01uS. Weights with
-/// relative errors of 10u each, and the sums of `exceeds`, add at most 1.74(20 + 20)uS. So 2^-45·S,
-/// which is 256uS, suffices. Underflow: each of at most 100 operations loses at most 2^-1074
-/// divided by weights of at least 2^-84.
-template <kind K>
-bool body_filter<K>::separated_by_axes(double distance) const {
-    if (!a_.usable || !b_.usable) return false;
-    const vector origin = b_way_[0];
-    const auto shifted = [&](const std::array<vector, 2>& way) {
-        return std::array{way[0] - origin, way[1] - origin};
-    };
-    const auto a_way = shifted(a_way_), b_way = shifted(b_way_);
-    const control_points<first> a(a_, from_centre_.data(), a_way);
-    const control_points<count - first> b(b_, from_centre_.data() + first, b_way);
-    double from_a = 0, from_b = 0;
-    for (std::size_t i = 0; i < first; ++i) from_a = std::max(from_a, sum_of(from_centre_[i]));
-    for (std::size_t i = first; i < count; ++i) from_b = std::max(from_b, sum_of(from_centre_[i]));
-    const double size = a_.largest_entry * from_a + b_.largest_entry * from_b +
-                        std::max(sum_of(a_way[0]), sum_of(a_way[1])) + sum_of(b_way[1]);
-    if (!(size < 0x1p900)) return false;
-    const double gap = distance * (1 + 0x1p-40) + 0x1p-45 * size + 0x1p-500;
-    const motion_box of_a = a.box(), of_b = b.box();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (of_a.low[axis] - of_b.high[axis] > gap || of_b.low[axis] - of_a.high[axis] > gap)
-            return true;
-    // The direction between the nearest points at t = 1/2, approximately.
-    std::array<vector, count> x;
-    const auto a_middle = a.middle();
-    const auto b_middle = b.middle();
-    std::copy(a_middle.begin(), a_middle.end(), x.begin());
-    std::copy(b_middle.begin(), b_middle.end(), x.begin() + first);
-    const vector between = [&] {
-        if constexpr (count == 4)
-            return separation_filter::nearest<K>(x);
-        else
-            return separation_filter::nearest(x);
-    }();
-    const double length = std::sqrt(separation_filter::dot(between, between));
-    if (!(length > 0x1p-400 && length < 0x1p400)) return false;
-    const vector axis = (1 / length) * between;
-    return exceeds(a_, a.least_along(axis, -1), b_, b.least_along(axis, 1), gap);
+bool body_filter<K>::separated(double distance) const {
+    std::array<moving_point<double>, count> chords;
+    std::array<double, 2> length{};
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t body = i < first ? 0 : 1;
+        const motion_chords& motion = body == 0 ? a_ : b_;
+        const vector y = points_[i].rest - motion.centre;
+        chords[i] = motion.ends_of(y);
+        length[body] = std::max(length[body], sum_of(y));
+        sum += sum_of(y);
+    }
+    const double gap = distance * (1 + 0x1p-40) + (a_.error_of(length[0]) + b_.error_of(length[1]));
+    // False also if a coordinate is not finite. Otherwise no coordinate of a chord overflows, since
+    // errors are at least 2^-46 of them.
+    if (!(gap + sum < 0x1p900)) return false;
+    static_assert(sizeof(chords) == 6 * count * sizeof(double));
+    if (baseline::packs_separated_by_coordinates<K>(reinterpret_cast<const double*>(chords.data()),
+                                                    gap))
+        return true;
+    using query = typename kind_traits<K>::template query<double>;
+    const auto linear = std::apply([](const auto&... x) { return query{x...}; }, chords);
+    return separation_filter::features(linear, {gap, 0}).stay_apart(halvings);
 }
 
 // ---- Signs of Y and the G_i ----
@@ -324,11 +213,21 @@ struct body_filter<K>::elements {
         const auto edge = [&](std::size_t from, std::size_t to) {
             return points[to].rest - points[from].rest;
         };
-        x = query.from_centre_[0];
-        y = query.from_centre_[first];
+        // Any centre serves a body at rest: x = (x − centre) + centre.
+        const auto start = [](const motion_chords& body, const vector& rest) {
+            return body.motion == motion_chords::motion_kind::rests
+                       ? std::tuple{vector{}, rest, rest}
+                       : std::tuple{rest - body.centre,
+                                    vector{body.shift[0], body.shift[1], body.shift[2]},
+                                    vector{body.shift[3], body.shift[4], body.shift[5]}};
+        };
+        const auto [of_a, a0, a1] = start(query.a_, points[0].rest);
+        const auto [of_b, b0, b1] = start(query.b_, points[first].rest);
+        x = of_a;
+        y = of_b;
         e = K == kind::vertex_face ? edge(1, 2) : edge(0, 1);
         f = K == kind::vertex_face ? edge(1, 3) : edge(2, 3);
-        d = {query.a_way_[0] - query.b_way_[0], query.a_way_[1] - query.b_way_[1]};
+        d = {a0 - b0, a1 - b1};
     }
     /// Bounds of all components after multiplication by entries of at most a and b.
     sizes size(double a, double b) const {
@@ -342,14 +241,17 @@ struct body_filter<K>::elements {
 template <kind K>
 outcome body_filter<K>::decide(touching_interval* found) const {
     if constexpr (is_cubic(K)) {
-        using motion = control_maps::motion_kind;
+        using motion = motion_chords::motion_kind;
         const elements query(*this);
         if (a_.motion != motion::turns && b_.motion != motion::turns) {
-            const auto ends = [](const control_maps& maps) {
-                const auto at = [&](std::size_t end) {
-                    return maps.linear[std::min(end, maps.count - 1)];
-                };
-                return std::array{at(0), at(1)};
+            const auto ends = [](const motion_chords& body) {
+                std::array<matrix3, 2> at;
+                for (std::size_t i = 0; i < 3; ++i)
+                    for (std::size_t j = 0; j < 3; ++j) {
+                        at[0][i][j] = body.column[j][i];
+                        at[1][i][j] = body.column[j][3 + i];
+                    }
+                return at;
             };
             const sizes size = query.size(a_.largest_entry, b_.largest_entry);
             if (!size.usable()) return outcome::uncertain;
@@ -363,8 +265,8 @@ outcome body_filter<K>::decide(touching_interval* found) const {
         if (a_.is_affine || b_.is_affine) return outcome::uncertain;
         const sizes size = query.size(1, 1);
         if (!size.usable()) return outcome::uncertain;
-        const auto quaternions = [](const control_maps& maps) {
-            if (maps.motion == motion::turns) return linear_of(maps.q[0], maps.q[1]);
+        const auto quaternions = [](const motion_chords& body) {
+            if (body.motion == motion::turns) return linear_of(body.q[0], body.q[1]);
             return linear_of<double, 4>({1, 0, 0, 0}, {1, 0, 0, 0});
         };
         const rigid_query_of<double> rigid{
@@ -380,10 +282,6 @@ outcome body_filter<K>::decide(touching_interval* found) const {
     return outcome::uncertain;
 }
 
-template bool has_two_bodies<kind::vertex_face>(std::span<const body_point>);
-template bool has_two_bodies<kind::edge_edge>(std::span<const body_point>);
-template bool has_two_bodies<kind::vertex_edge>(std::span<const body_point>);
-template bool has_two_bodies<kind::vertex_vertex>(std::span<const body_point>);
 template class body_filter<kind::vertex_face>;
 template class body_filter<kind::edge_edge>;
 template class body_filter<kind::vertex_edge>;

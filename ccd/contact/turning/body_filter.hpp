@@ -1,7 +1,7 @@
 // The floating-point stages of queries whose features belong to one body each. Internal.
 //
-// Separating axes first, then bisection of the signs of Y and the G_i, as for linear motion
-// (ccd/exact/stages.hpp). Nothing is allocated.
+// Axes that separate the points' chords first, then bisection of the signs of Y and the G_i, as for
+// linear motion (ccd/exact/stages.hpp). Nothing is allocated.
 #pragma once
 
 #include <array>
@@ -11,9 +11,8 @@
 #include <cstddef>
 #include <errbound/roots/control_values.hpp>
 #include <errbound/sign.hpp>
+#include <optional>
 #include <span>
-
-#include "ccd/contact/turning/control_maps.hpp"
 
 namespace ccd::detail {
 
@@ -41,36 +40,43 @@ struct touching_interval {
     }
 };
 
+/// The motion as one of a rigid body; nothing if it is affine with another matrix than 1.
+std::optional<rigid_motion> as_rigid(const body_motion& motion);
+
 /// True if all points of each feature have one motion.
 template <kind K>
-bool has_two_bodies(std::span<const body_point> points);
+bool has_two_bodies(std::span<const body_point> points) {
+    constexpr std::size_t first = kind_traits<K>::first_vertices;
+    for (std::size_t i = 1; i < points.size(); ++i)
+        if (i != first && points[i].motion != points[i - 1].motion) return false;
+    return true;
+}
 
-/// Keeps references. Preconditions: has_two_bodies, valid points.
+/// Keeps references. Preconditions: has_two_bodies; the chords are those of the two motions.
 template <kind K>
 class body_filter {
   public:
-    body_filter(std::span<const body_point> points, const control_maps& first,
-                const control_maps& second);
+    body_filter(std::span<const body_point> points, const motion_chords& first,
+                const motion_chords& second)
+        : points_(points), a_(first), b_(second) {}
 
-    /// True if an axis certainly separates the features by more than the distance.
-    bool separated_by_axes(double distance) const;
+    /// True if the points are valid and the features certainly stay farther apart than the
+    /// distance.
+    bool separated(double distance) const;
 
     /// `separate` and `collides` are certain; for the latter, *found is set. `uncertain` if an
-    /// affine body meets a turning one, and for VE and VV.
+    /// affine body meets a turning one, and for VE and VV. Precondition: the points are valid.
     outcome decide(touching_interval* found) const;
 
   private:
     static constexpr std::size_t first = kind_traits<K>::first_vertices;
     static constexpr std::size_t count = first + kind_traits<K>::second_vertices;
-    using vector = point<double>;
 
     struct elements;
 
     std::span<const body_point> points_;
-    const control_maps& a_;
-    const control_maps& b_;
-    std::array<vector, count> from_centre_;
-    std::array<vector, 2> a_way_, b_way_;  ///< of the centres, relative to the second one's start
+    const motion_chords& a_;
+    const motion_chords& b_;
 };
 
 }  // namespace ccd::detail

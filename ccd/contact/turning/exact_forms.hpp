@@ -16,7 +16,6 @@
 #include "ccd/contact/time_bracket.hpp"
 #include "ccd/contact/time_polynomial.hpp"
 #include "ccd/contact/turning/body_filter.hpp"
-#include "ccd/contact/turning/control_maps.hpp"
 #include "ccd/contact/turning/rigid_forms.hpp"
 #include "ccd/contact/weighted_paths.hpp"
 

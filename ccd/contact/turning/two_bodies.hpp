@@ -8,15 +8,11 @@
 #include <ccd/verdict.hpp>
 #include <span>
 
-#include "ccd/contact/turning/control_maps.hpp"
-
 namespace ccd::detail {
 
-/// Same as first_within_of (ccd/contact/first_times.hpp), for valid points of two bodies
-/// (has_two_bodies) with these maps, and a valid distance.
+/// Same as first_within (ccd/curves.hpp), for points in the order of points_of.
 template <kind K>
-first_time first_within_of_bodies(std::span<const body_point> points, const control_maps& a,
-                                  const control_maps& b, separation d, double t_max,
-                                  answer wanted = answer::time);
+first_time first_within_of_bodies(std::span<const body_point> points, separation d, double t_max,
+                                  answer wanted);
 
 }  // namespace ccd::detail

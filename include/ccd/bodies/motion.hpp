@@ -15,6 +15,7 @@
 #include <array>
 #include <ccd/curves.hpp>
 #include <ccd/query.hpp>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <variant>
@@ -65,10 +66,13 @@ struct rigid_motion {
 
 using body_motion = std::variant<resting, affine_motion, rigid_motion>;
 
+class prepared_motion;
+
 /// A point of a body, at rest in the body's own coordinates. `motion` is not owned and not null.
 struct body_point {
     const body_motion* motion = nullptr;
     point<double> rest;
+    const prepared_motion* prepared = nullptr;  ///< of *motion, or null: see prepared_motion::at
 };
 
 /// Returns "" if the motion is valid, else the reason, such as `q0·q1 is -1; expected a number
@@ -101,8 +105,63 @@ std::vector<spline_piece<rigid_motion>> turn(const pose& from, const point<doubl
 moving_point<double> rounded_ends(const affine_motion& motion, const point<double>& rest);
 
 namespace detail {
+
 template <>
 inline constexpr bool is_motion<body_point> = true;
+
+/// A motion between two times, near motion along lines. A point X moves within error_of(y) of the
+/// line from ends_of(y).t0 to ends_of(y).t1, at constant speed, for y = X − centre.
+struct motion_chords {
+    enum class motion_kind { rests, keeps_direction, turns };
+
+    explicit motion_chords(const body_motion& motion, double from = 0, double to = 1);
+
+    moving_point<double> ends_of(const point<double>& y) const {
+        std::array<double, 6> x;
+        for (std::size_t k = 0; k < 6; ++k)
+            x[k] = ((column[0][k] * y.x + column[1][k] * y.y) + column[2][k] * y.z) + shift[k];
+        return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+    }
+    /// An infinite or undefined bound holds for everything. `length` is |y.x| + |y.y| + |y.z|.
+    double error_of(double length) const { return error_per_length * length + error; }
+
+    /// The columns of A(t) or R(t), and the translation: three numbers for each of the two times.
+    std::array<std::array<double, 6>, 3> column{};
+    std::array<double, 6> shift{};
+    point<double> centre;
+    double error_per_length = 0, error = 0;  ///< infinite if the motion is invalid or too extreme
+    motion_kind motion = motion_kind::rests;
+    bool is_affine = false;    ///< not a rigid body
+    double largest_entry = 1;  ///< bounds the entries of `column`
+    /// A body that turns: its quaternions, scaled by a power of two, w x y z at both times. The
+    /// largest coordinate of those at t = 0 and 1 is in [1/2, 1]. Others may have underflowed.
+    std::array<std::array<double, 4>, 2> q{};
+
+  private:
+    void set_identity();
+    void set_shift(const point<double>& p0, const point<double>& p1);
+    void set(const affine_motion& m);
+    void set(const rigid_motion& m);
+
+    double from_, to_;
+};
+
 }  // namespace detail
+
+/// A motion with numbers that each query needs, computed once. Queries of its points give the same
+/// results as those of {&motion, rest}. If boxes or axes decide, they take about half the time.
+class prepared_motion {
+  public:
+    explicit prepared_motion(const body_motion& motion) : motion_(motion), chords_(motion) {}
+
+    const body_motion& motion() const { return motion_; }
+    const detail::motion_chords& chords() const { return chords_; }
+    /// The point of this body that rests at `rest`. Precondition: *this outlives its queries.
+    body_point at(const point<double>& rest) const { return {&motion_, rest, this}; }
+
+  private:
+    body_motion motion_;
+    detail::motion_chords chords_;
+};
 
 }  // namespace ccd

@@ -11,7 +11,6 @@
 #include <ccd/kind.hpp>
 #include <cmath>
 #include <cstddef>
-#include <errbound/bernstein.hpp>
 #include <iostream>
 #include <limits>
 #include <numbers>
@@ -24,7 +23,6 @@
 
 #include "ccd/contact/rotation.hpp"
 #include "ccd/contact/turning/body_filter.hpp"
-#include "ccd/contact/turning/control_maps.hpp"
 #include "tests/ccd/contact/by_hand.hpp"
 #include "tests/support/first_time_faults.hpp"
 #include "tests/support/oracle_rational.hpp"
@@ -606,14 +604,14 @@ void expect_decisions_of_oracle(random_bodies& random, filter_counts& counts) {
     const auto motions = random.motions(random_bodies::style::any);
     const auto query = query_of<K>(random.template points<K>(motions, false));
     const auto points = points_of(query);
-    const ccd::detail::control_maps a(*points.front().motion), b(*points.back().motion);
+    const ccd::detail::motion_chords a(*points.front().motion), b(*points.back().motion);
     const ccd::detail::body_filter<K> filter(points, a, b);
     const bool touches = oracle::collides(query);
-    if (filter.separated_by_axes(0)) {
+    if (filter.separated(0)) {
         ++counts.axes;
         EXPECT_FALSE(touches);
         const double d = std::ldexp(1 + random.below(2), random.scale);
-        if (random.below(4) == 0 && filter.separated_by_axes(d)) {
+        if (random.below(4) == 0 && filter.separated(d)) {
             ++counts.far;
             EXPECT_FALSE(oracle::within(query, d, 0));
         }
@@ -647,49 +645,105 @@ TEST(random_body_queries, pass_filters_that_agree_with_the_oracle) {
 
 using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
                                                boost::multiprecision::et_off>;
-using rational_form = errbound::bernstein<rational, 1>;
 
-/// Checks the errors that ccd/contact/turning/control_maps.hpp states. Returns false if the motion
-/// has no maps.
-bool expect_errors_of_maps(const rigid_motion& m) {
-    const ccd::detail::control_maps maps{body_motion(m)};
-    if (maps.motion != ccd::detail::control_maps::motion_kind::turns || !maps.usable) return false;
-    const auto form = [](double a, double b) { return rational_form{{rational(a), rational(b)}}; };
-    const auto r = ccd::detail::rotation_of<rational_form>(
-        {form(m.q0.w, m.q1.w), form(m.q0.x, m.q1.x), form(m.q0.y, m.q1.y), form(m.q0.z, m.q1.z)});
-    const rational u(0x1p-53), largest(maps.largest_entry);
-    const bool has_four = maps.count == 4;
-    const auto weight = elevated(r.weight);
-    for (int k = 0; k < static_cast<int>(maps.count); ++k) {
-        const std::size_t at = static_cast<std::size_t>(k);
-        const rational w = has_four ? weight[k] : r.weight[k];
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j) {
-                const auto entry = elevated(r.matrix[i][j]);
-                const rational exact = (has_four ? entry[k] : r.matrix[i][j][k]) / w;
-                EXPECT_LE(abs(exact), largest);
-                EXPECT_LE(abs(exact - rational(maps.linear[at][i][j])), 25 * u * largest);
-            }
-        // Weights have one factor in common.
-        const rational scale = rational(maps.weight[0]) / (has_four ? weight[0] : r.weight[0]);
-        EXPECT_LE(abs(rational(maps.weight[at]) - w * scale), 20 * u * w * scale);
-        // The motion along a line, times the weight.
-        const rational share = has_four && k > 0 ? r.weight[k - 1] / w : rational(0);
-        EXPECT_LE(abs(share - rational(maps.along[at])), 5 * u);
+/// The exact position of a point at a time, relative to that of the body's centre.
+std::array<rational, 3> position_at(const body_motion& motion, const point& rest,
+                                    const rational& t) {
+    const std::array<rational, 3> x{rest.x, rest.y, rest.z};
+    const auto at = [&](double a, double b) { return (1 - t) * rational(a) + t * rational(b); };
+    const auto moved = [&](const auto& row, const point& c, double p0, double p1,
+                           const rational& w) {
+        return (row[0] * (x[0] - rational(c.x)) + row[1] * (x[1] - rational(c.y)) +
+                row[2] * (x[2] - rational(c.z))) /
+                   w +
+               at(p0, p1);
+    };
+    const auto all = [&](const auto& matrix, const auto& m, const point& c, const rational& w) {
+        return std::array{moved(matrix[0], c, m.p0.x, m.p1.x, w),
+                          moved(matrix[1], c, m.p0.y, m.p1.y, w),
+                          moved(matrix[2], c, m.p0.z, m.p1.z, w)};
+    };
+    if (const auto* m = std::get_if<rigid_motion>(&motion)) {
+        const auto r =
+            ccd::detail::rotation_of<rational>({at(m->q0.w, m->q1.w), at(m->q0.x, m->q1.x),
+                                                at(m->q0.y, m->q1.y), at(m->q0.z, m->q1.z)});
+        return all(r.matrix, *m, m->centre, r.weight);
     }
-    return true;
+    const auto* m = std::get_if<affine_motion>(&motion);
+    if (m == nullptr) return x;
+    std::array<std::array<rational, 3>, 3> a;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) a[i][j] = at(m->a0[i][j], m->a1[i][j]);
+    return all(a, *m, {}, 1);
 }
-TEST(control_maps, have_errors_within_their_bounds) {
+
+/// Checks the bound of ccd/contact/turning/chords.cpp at a time, as a share of the interval between
+/// two times. Returns the bound divided by the distance of the chord, or 0 if the bound is
+/// infinite.
+double expect_error_of_chord(const body_motion& motion, double from, double to, double share,
+                             const point& rest) {
+    const ccd::detail::motion_chords chords(motion, from, to);
+    const point y{rest.x - chords.centre.x, rest.y - chords.centre.y, rest.z - chords.centre.z};
+    const auto [start, end] = chords.ends_of(y);
+    const double bound = chords.error_of(std::abs(y.x) + std::abs(y.y) + std::abs(y.z));
+    if (!(bound < infinity)) return 0;
+    const auto x = position_at(motion, rest,
+                               rational(from) + rational(share) * (rational(to) - rational(from)));
+    const auto on_chord = [&](double a, double b) {
+        return (1 - rational(share)) * rational(a) + rational(share) * rational(b);
+    };
+    const rational dx = x[0] - on_chord(start.x, end.x), dy = x[1] - on_chord(start.y, end.y),
+                   dz = x[2] - on_chord(start.z, end.z);
+    const rational squared = dx * dx + dy * dy + dz * dz;
+    EXPECT_LE(squared, rational(bound) * rational(bound));
+    return squared == 0
+               ? infinity
+               : std::sqrt(static_cast<double>(rational(bound) * rational(bound) / squared));
+}
+TEST(motion_chords, have_errors_within_their_bounds) {
     random_bodies random(9);
-    int with_maps = 0;
+    int bounded = 0, all = 0;
+    double least = infinity;
     for (int i = 0; i < support::scaled(500); ++i) {
         SCOPED_TRACE("motion " + std::to_string(i));
         random.draw_style();
-        with_maps += expect_errors_of_maps(random.rigid()) + expect_errors_of_maps(random.screw());
+        for (const body_motion& motion : {body_motion(random.rigid()), body_motion(random.screw()),
+                                          body_motion(random.affine())})
+            for (const auto& [from, to] : {std::pair(0.0, 1.0), {0.0, 0.5}, {0.375, 0.5}}) {
+                const double ratio = expect_error_of_chord(
+                    motion, from, to, std::ldexp(random.below(17), -4), random.position(2));
+                bounded += ratio > 0;
+                ++all;
+                if (ratio > 0) least = std::min(least, ratio);
+            }
     }
-    EXPECT_GT(with_maps, support::scaled(250));
-    // A motion close to half a turn has no maps, but exact results.
-    EXPECT_FALSE(expect_errors_of_maps({{1, 0, 0, 0}, {0x1p-20, 0, 0, 1}, {}, {}, {}}));
+    std::cout << bounded << " of " << all << " bounds are finite, the tightest " << least
+              << " times the distance\n";
+    EXPECT_GT(bounded, all / 2);
+    if (is_whole_run()) {
+        EXPECT_LT(least, 2);
+    }
+    // Close to half a turn, and at the middle of a turn by 90 degrees.
+    const double half = expect_error_of_chord(
+        rigid_motion{{1, 0, 0, 0}, {0x1p-20, 0, 0, 1}, {}, {}, {}}, 0, 1, 0.5, {1, 0, 0});
+    EXPECT_GT(half, 1);
+    EXPECT_LT(half, 3);
+    EXPECT_LT(expect_error_of_chord(quarter, 0, 1, 0.5, {1, 0, 0}), 2);
+}
+TEST(random_body_queries, of_prepared_motions_have_the_same_times) {
+    for_random_queries<random_bodies>(30, 10, []<kind K>(auto& random) {
+        const auto motions = random.motions(random_bodies::style::any);
+        const std::array prepared{
+            ccd::prepared_motion(motions[0]), ccd::prepared_motion(motions[1]),
+            ccd::prepared_motion(motions[2]), ccd::prepared_motion(motions[3])};
+        const auto points = random.template points<K>(motions, random.below(8) == 0);
+        auto same = points;
+        for (body_point& p : same)
+            p = prepared[static_cast<std::size_t>(p.motion - &motions[0])].at(p.rest);
+        EXPECT_EQ(ccd::time_of_impact(query_of<K>(same)), ccd::time_of_impact(query_of<K>(points)));
+        const separation d = random_distance(random);
+        EXPECT_EQ(ccd::time_within(query_of<K>(same), d), ccd::time_within(query_of<K>(points), d));
+    });
 }
 
 TEST(random_body_queries, come_near_first_at_the_time_of_the_oracle) {
