@@ -1,6 +1,7 @@
 // The program's commands.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "errbound/support/command.hpp"
