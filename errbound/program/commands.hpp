@@ -1,7 +1,6 @@
 // The program's commands.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "errbound/support/command.hpp"

@@ -47,23 +47,20 @@ conformance_command::conformance_command(CLI::App& program)
               "coordinates, sign),\nITF1788's .itl, CORE-MATH's .wc, MPSolve's .pol with .res, and "
               ".fpcore, in all subfolders.\nExit status: 0 if no answer was wrong, 1 bad input or "
               "wrong answers, 2 bad usage") {
-    line_.add_option("folder", folder_, "Folder of published files")->required()->type_name("DIR");
-    line_.add_option("--rules", rules_, "Bound rules R[,R...]; all by default")
-        ->type_name("R[,R...]");
-    line_.add_option("--seconds", found_.options.seconds, "Limit of each bound of a program")
-        ->check(CLI::Range(0.0, 1e9))
-        ->capture_default_str();
+    support::add(line_, "folder", folder_, "Folder of published files").required().type("DIR");
+    support::add(line_, "--rules", rules_, "Bound rules R[,R...]; all by default").type("R[,R...]");
+    support::add(line_, "--seconds", found_.options.seconds, "Limit of each bound of a program")
+        .between(0.0, 1e9)
+        .shows_default();
     found_.options.measured = 1000;
-    line_
-        .add_option("--measured", found_.options.measured,
-                    "Random inputs of each program of which MPFR measures each error")
-        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 50))
-        ->capture_default_str();
-    line_.add_option("--csv", csv_, "Write the table as CSV")->type_name("OUT");
-    line_.add_option("--json", json_, "Write the table, skipped vectors and wrong answers as JSON")
-        ->type_name("OUT");
-    line_.add_option("--picture", picture_, "Draw the medians of the table, an SVG file")
-        ->type_name("OUT");
+    support::add(line_, "--measured", found_.options.measured,
+                 "Random inputs of each program of which MPFR measures each error")
+        .between(std::uint64_t{0}, std::uint64_t{1} << 50)
+        .shows_default();
+    support::add_output(line_, "--csv", csv_, "Write the table as CSV");
+    support::add_output(line_, "--json", json_,
+                        "Write the table, skipped vectors and wrong answers as JSON");
+    support::add_output(line_, "--picture", picture_, "Draw the medians of the table, an SVG file");
 }
 
 void conformance_command::compare(const std::filesystem::path& path) {

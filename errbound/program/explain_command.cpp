@@ -1,5 +1,6 @@
 // `errbound explain`.
 #include <cstddef>
+#include <cstdint>
 #include <errbound/explain/explanation.hpp>
 #include <filesystem>
 #include <optional>
@@ -35,21 +36,21 @@ explain::explain(CLI::App& program)
     : command(program, "explain",
               "Show where the errors of results come from, as errbound::write_explanations of a "
               "program\nthat computes with explained numbers wrote it") {
-    line_.add_option("file", file_, "The explanations; - is standard input")
-        ->required()
-        ->type_name("FILE")
-        ->transform(support::input_named);
-    line_.add_option("--result", result_, "Only the result of that name");
-    line_.add_option("--lines", lines_, "Sources in a table, at most")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 40))
-        ->capture_default_str();
-    line_.add_option("--picture", picture_, "Draw flame graphs, an SVG file")->type_name("OUT");
+    support::add(line_, "file", file_, "The explanations; - is standard input")
+        .required()
+        .type("FILE")
+        .input();
+    support::add(line_, "--result", result_, "Only the result of that name");
+    support::add(line_, "--lines", lines_, "Sources in a table, at most")
+        .between(std::uint64_t{1}, std::uint64_t{1} << 40)
+        .shows_default();
+    support::add_output(line_, "--picture", picture_, "Draw flame graphs, an SVG file");
 }
 
 support::exit_status explain::run() {
     support::require_good_outputs({picture_}, {file_});
     std::vector<explanation> results = parse_explanations(support::read_whole(file_), file_);
-    if (line_.count("--result") > 0)
+    if (was_given("--result"))
         results = {support::entry_named("--result", result_, results, shown_name)};
     if (picture_) support::write_whole(*picture_, flame_graphs(results));
     std::ostream& people = support::stream_for_people({picture_});

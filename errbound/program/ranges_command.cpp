@@ -50,13 +50,7 @@ class ranges final : public support::command {
     std::vector<explanation> explanations_;
 };
 
-const CLI::Validator not_nan(
-    [](const std::string& text) {
-        return text.find("nan") == text.npos ? "" : text + "; expected a number";
-    },
-    "");
-const CLI::Validator a_duration = not_nan & CLI::Range(0.0, 1e9),
-                     a_count = CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 50);
+constexpr std::uint64_t most_count = std::uint64_t{1} << 50;
 
 const std::vector<std::string> first_columns{"core", "precision", "at_most", "at_least", "ratio"},
     last_columns{"relative", "lower", "upper", "boxes", "complete", "seconds"};
@@ -67,67 +61,58 @@ ranges::ranges(CLI::App& program)
           "Bound the rounding error of FPCore programs over all inputs that their preconditions "
           "allow,\nand search for inputs with a large error. Cores that cannot be bounded are "
           "listed with the reason") {
-    line_.add_option("files", files_, "FPCore files; - is standard input")
-        ->required()
-        ->type_name("FILE...");
-    line_.add_option("--only", only_, "Only the cores of that name")->type_name("NAME");
-    line_
-        .add_option("--precision", precision_,
-                    "Use this precision for all cores, instead of their own")
-        ->check(CLI::IsMember(
-            {"binary64", "binary32", "binary16", "binary80", "bfloat16", "e5m2", "e4m3"}));
-    line_.add_flag("--round-inputs", options_.round_inputs,
-                   "Inputs are real numbers; their rounding counts");
-    line_.add_flag("--relative", options_.relative, "Bound the relative error, too");
-    line_
-        .add_option("--function-units", options_.function_units,
-                    "Errors of elementary functions in units in the last place, instead of "
-                    "function_error;\n0.5 for correct rounding")
-        ->check(not_nan & CLI::Range(0.5, 1024.0));
-    line_
-        .add_option("--gap", options_.gap,
-                    "Stop if the bound is within this share of the least one that bisection can "
-                    "reach")
-        ->check(not_nan & CLI::Range(0.0, 1e6))
-        ->capture_default_str();
-    line_.add_option("--seconds", options_.seconds, "Limit of each bound")
-        ->check(a_duration)
-        ->capture_default_str();
-    line_.add_option("--boxes", options_.boxes, "Limit of each bound")
-        ->check(a_count)
-        ->capture_default_str();
-    line_.add_option("--samples", options_.samples, "Inputs that each search tries")
-        ->check(a_count)
-        ->capture_default_str();
-    line_
-        .add_option("--measured", options_.measured,
-                    "Random inputs of which MPFR measures each error, too")
-        ->check(a_count);
-    line_.add_option("--seed", options_.seed, "Seed of the search")
-        ->check(support::checked_seed)
-        ->capture_default_str();
+    support::add(line_, "files", files_, "FPCore files; - is standard input")
+        .required()
+        .type("FILE...");
+    support::add(line_, "--only", only_, "Only the cores of that name").type("NAME");
+    support::add(line_, "--precision", precision_,
+                 "Use this precision for all cores, instead of their own")
+        .among({"binary64", "binary32", "binary16", "binary80", "bfloat16", "e5m2", "e4m3"});
+    support::add_flag(line_, "--round-inputs", options_.round_inputs,
+                      "Inputs are real numbers; their rounding counts");
+    support::add_flag(line_, "--relative", options_.relative, "Bound the relative error, too");
+    support::add(line_, "--function-units", options_.function_units,
+                 "Errors of elementary functions in units in the last place, instead of "
+                 "function_error;\n0.5 for correct rounding")
+        .between(0.5, 1024.0);
+    support::add(line_, "--gap", options_.gap,
+                 "Stop if the bound is within this share of the least one that bisection can "
+                 "reach")
+        .between(0.0, 1e6)
+        .shows_default();
+    support::add(line_, "--seconds", options_.seconds, "Limit of each bound")
+        .between(0.0, 1e9)
+        .shows_default();
+    support::add(line_, "--boxes", options_.boxes, "Limit of each bound")
+        .between(std::uint64_t{0}, most_count)
+        .shows_default();
+    support::add(line_, "--samples", options_.samples, "Inputs that each search tries")
+        .between(std::uint64_t{0}, most_count)
+        .shows_default();
+    support::add(line_, "--measured", options_.measured,
+                 "Random inputs of which MPFR measures each error, too")
+        .between(std::uint64_t{0}, most_count);
+    support::add(line_, "--seed", options_.seed, "Seed of the search")
+        .check(support::checked_seed)
+        .shows_default();
     add_comparisons_and_outputs();
 }
 
 void ranges::add_comparisons_and_outputs() {
-    line_
-        .add_option("--rules", rules_,
-                    "Search for the largest error() of these bound rules, too; or of all")
-        ->type_name("R[,R...]");
-    line_
-        .add_option("--published", published_,
-                    "Compare with other bounds: lines CORE,BOUND, the core's name without commas. "
-                    "The\ncolumn has the file's name; may be repeated")
-        ->type_name("FILE");
-    line_.add_option("--csv", csv_, "Write the table as CSV")->type_name("OUT");
-    line_.add_option("--json", json_, "Write all results, with inputs and operations, as JSON")
-        ->type_name("OUT");
-    line_
-        .add_option("--picture", picture_,
-                    "Draw all bounds as multiples of the observed error, an SVG file")
-        ->type_name("OUT");
-    line_.add_option("--operations", operations_, "Draw each bound's operations, an SVG file")
-        ->type_name("OUT");
+    support::add(line_, "--rules", rules_,
+                 "Search for the largest error() of these bound rules, too; or of all")
+        .type("R[,R...]");
+    support::add(line_, "--published", published_,
+                 "Compare with other bounds: lines CORE,BOUND, the core's name without commas. "
+                 "The\ncolumn has the file's name; may be repeated")
+        .type("FILE");
+    support::add_output(line_, "--csv", csv_, "Write the table as CSV");
+    support::add_output(line_, "--json", json_,
+                        "Write all results, with inputs and operations, as JSON");
+    support::add_output(line_, "--picture", picture_,
+                        "Draw all bounds as multiples of the observed error, an SVG file");
+    support::add_output(line_, "--operations", operations_,
+                        "Draw each bound's operations, an SVG file");
 }
 
 std::map<std::string, double> published_bounds(const std::filesystem::path& path) {

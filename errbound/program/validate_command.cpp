@@ -80,71 +80,64 @@ validate::validate(CLI::App& program)
               "they are.\nRandom expressions, unless --tiny or --functions is given. ccd validate "
               "compares stored queries") {
     add_expressions();
-    line_
-        .add_option("--numbers", numbers_,
-                    "Number types N[,N...] of expressions: " + names_of_numbers() +
-                        "; the first two by default")
-        ->type_name("N[,N...]");
-    line_.add_flag("--tiny", arguments_.tiny, "Every case of number formats of 6 to 8 bits");
-    line_.add_flag("--every-bound", arguments_.every_bound,
-                   "With --tiny: in float8_e5m2 and float8_e4m3 every pair of bounds too");
+    support::add(line_, "--numbers", numbers_,
+                 "Number types N[,N...] of expressions: " + names_of_numbers() +
+                     "; the first two by default")
+        .type("N[,N...]");
+    support::add_flag(line_, "--tiny", arguments_.tiny,
+                      "Every case of number formats of 6 to 8 bits");
+    support::add_flag(line_, "--every-bound", arguments_.every_bound,
+                      "With --tiny: in float8_e5m2 and float8_e4m3 every pair of bounds too");
     add_functions();
-    line_.add_option("--rules", rules_, "Rules R[,R...]; all by default")->type_name("R[,R...]");
-    line_.add_option("--threads", arguments_.options.threads, "Threads; 0: one per core")
-        ->check(CLI::Range(0, 4096));
+    support::add(line_, "--rules", rules_, "Rules R[,R...]; all by default").type("R[,R...]");
+    support::add(line_, "--threads", arguments_.options.threads, "Threads; 0: one per core")
+        .between(0, 4096);
     arguments_.to.add_options(line_);
 }
 
 void validate::add_expressions() {
-    line_
-        .add_option("--expressions", arguments_.options.expressions,
-                    "Random expressions, at least N per rule and number type")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
-        ->capture_default_str();
-    line_.add_option("--seed", arguments_.options.seed, "Same seed, same expressions")
-        ->check(support::checked_seed)
-        ->capture_default_str();
-    line_
-        .add_option("--first", arguments_.options.first,
-                    "Skip the first N expressions of the seed's sequence. Runs with --first 0, M, "
-                    "2M, ... and\nM expressions each partition one long run")
-        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40))
-        ->capture_default_str();
-    line_
-        .add_option("--operations", arguments_.options.operations,
-                    "Operations in an expression, at most")
-        ->check(CLI::Range(1, max_operations))
-        ->capture_default_str();
+    support::add(line_, "--expressions", arguments_.options.expressions,
+                 "Random expressions, at least N per rule and number type")
+        .between(std::uint64_t{1}, std::uint64_t{1} << 40)
+        .shows_default();
+    support::add(line_, "--seed", arguments_.options.seed, "Same seed, same expressions")
+        .check(support::checked_seed)
+        .shows_default();
+    support::add(line_, "--first", arguments_.options.first,
+                 "Skip the first N expressions of the seed's sequence. Runs with --first 0, M, "
+                 "2M, ... and\nM expressions each partition one long run")
+        .between(std::uint64_t{0}, std::uint64_t{1} << 40)
+        .shows_default();
+    support::add(line_, "--operations", arguments_.options.operations,
+                 "Operations in an expression, at most")
+        .between(1, max_operations)
+        .shows_default();
 }
 
 void validate::add_functions() {
-    line_
-        .add_option("--functions", functions_,
-                    "The errors of the system's elementary functions F[,F...], or of all, in float "
-                    "and\ndouble, compared with function_error")
-        ->type_name("F[,F...]");
-    line_
-        .add_option("--samples", arguments_.functions.samples,
-                    "With --functions: arguments of each function and number type")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
-        ->capture_default_str();
-    line_.add_flag("--every-float", arguments_.functions.every_float,
-                   "With --functions: all floats, of functions of one argument: long");
-    line_.add_option("--units", arguments_.functions.units,
-                     "With --functions: compare with that many units in the last place instead of "
-                     "function_error");
-    line_
-        .add_option("--functions-csv", arguments_.to.functions_csv,
-                    "Write the table of functions as CSV")
-        ->type_name("OUT");
+    support::add(line_, "--functions", functions_,
+                 "The errors of the system's elementary functions F[,F...], or of all, in float "
+                 "and\ndouble, compared with function_error")
+        .type("F[,F...]");
+    support::add(line_, "--samples", arguments_.functions.samples,
+                 "With --functions: arguments of each function and number type")
+        .between(std::uint64_t{1}, std::uint64_t{1} << 40)
+        .shows_default();
+    support::add_flag(line_, "--every-float", arguments_.functions.every_float,
+                      "With --functions: all floats, of functions of one argument: long");
+    support::add(line_, "--units", arguments_.functions.units,
+                 "With --functions: compare with that many units in the last place instead of "
+                 "function_error");
+    support::add_output(line_, "--functions-csv", arguments_.to.functions_csv,
+                        "Write the table of functions as CSV");
 }
 
 validate_arguments validate::checked() const {
     validate_arguments all = arguments_;
     all.rules = rules_named(rules_);
-    if (line_.count("--numbers") > 0)
+    if (was_given("--numbers"))
         all.options.numbers = support::all_named("--numbers", numbers_, number_named);
-    if (line_.count("--functions") > 0) all.functions.functions = functions_named(functions_);
+    if (was_given("--functions")) all.functions.functions = functions_named(functions_);
     if (const auto units = all.functions.units; units && !(*units > 0 && *units <= most_units))
         throw support::usage_error("--units is out of range; expected a number > 0 and <= 1024");
     all.functions.numbers = all.options.numbers;
@@ -157,8 +150,7 @@ validate_arguments validate::checked() const {
         throw support::usage_error(
             "--numbers has no float, double or long double; expected one of them with --functions");
     all.functions.seed = all.options.seed;
-    all.expressions =
-        line_.count("--expressions") > 0 || (!all.tiny && all.functions.functions.empty());
+    all.expressions = was_given("--expressions") || (!all.tiny && all.functions.functions.empty());
     if (all.expressions) require_rules_of_numbers(all);
     require_use_of_options(all);
     if (all.functions.every_float) require_use_of_every_float(all.functions);
@@ -182,7 +174,7 @@ void validate::require_use_of_options(const validate_arguments& all) const {
         {"--functions-csv", functions, "--functions"},
         {"--csv", all.expressions, "--expressions"}};
     for (const auto& [option, is_used, by] : needs)
-        if (line_.count(option) > 0 && !is_used)
+        if (was_given(option) && !is_used)
             throw support::usage_error(std::string(option) + " is given without " + by +
                                        "; expected both");
 }

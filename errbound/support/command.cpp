@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string_view>
+#include <type_traits>
 
 namespace errbound::support {
 
@@ -35,11 +36,16 @@ option& option::among(const std::vector<std::string>& names) {
 }
 template <class T>
 option& option::between(T least, T most) {
+    if constexpr (std::is_floating_point_v<T>)
+        check([](const std::string& text) {
+            return text.find("nan") == text.npos ? "" : text + "; expected a number";
+        });
     of_->check(CLI::Range(least, most));
     return *this;
 }
 template option& option::between(int, int);
 template option& option::between(std::uint64_t, std::uint64_t);
+template option& option::between(double, double);
 option& option::check(std::function<std::string(const std::string&)> fault) {
     of_->check(std::move(fault));
     return *this;
@@ -60,7 +66,10 @@ option add(CLI::App& line, const std::string& name, T& value, const std::string&
 template option add(CLI::App&, const std::string&, int&, const std::string&);
 template option add(CLI::App&, const std::string&, unsigned long&, const std::string&);
 template option add(CLI::App&, const std::string&, unsigned long long&, const std::string&);
+template option add(CLI::App&, const std::string&, double&, const std::string&);
+template option add(CLI::App&, const std::string&, std::optional<double>&, const std::string&);
 template option add(CLI::App&, const std::string&, std::string&, const std::string&);
+template option add(CLI::App&, const std::string&, std::vector<std::string>&, const std::string&);
 template option add(CLI::App&, const std::string&, std::filesystem::path&, const std::string&);
 template option add(CLI::App&, const std::string&, std::optional<std::filesystem::path>&,
                     const std::string&);

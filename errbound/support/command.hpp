@@ -34,7 +34,7 @@ class option {
     option& shows_default();
     option& among(const std::vector<std::string>& names);
     template <class T>
-    option& between(T least, T most);  ///< int, std::uint64_t
+    option& between(T least, T most);  ///< int, std::uint64_t, double: not NaN
     /// `fault` returns a message, or nothing for a good value.
     option& check(std::function<std::string(const std::string&)> fault);
     /// A name with this ending; with `or_output` also -.
