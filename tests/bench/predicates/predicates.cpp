@@ -224,23 +224,21 @@ void add_exact_rows(const Entry& entry, const run_options& o, rows& table) {
     if (!o.wants(entry.name)) return;
     constexpr std::size_t D = Entry::dimension, N = Entry::count;
     const std::size_t inputs = o.quick ? 200 : 5000;
-    for (const auto [bits, spread] : {std::pair(8, 0),
-                                      {20, 0},
-                                      {53, 0},
-                                      {53, 50},
-                                      {53, 100},
-                                      {53, 200},
-                                      {53, 500},
-                                      {53, 1000},
-                                      {53, 2000}}) {
+    struct coordinates {
+        int bits, spread;
+    };
+    constexpr coordinates all[] = {{8, 0},    {20, 0},   {53, 0},    {53, 50},  {53, 100},
+                                   {53, 200}, {53, 500}, {53, 1000}, {53, 2000}};
+    for (const coordinates c : all) {
         const auto make = [&](predicate_inputs::generator& random, surface) {
             predicate_inputs::points<double, D, N> p;
             for (auto& point : p)
                 for (double& x : point) {
                     const double fraction =
-                        std::trunc(std::ldexp(predicate_inputs::uniform<double>(random), bits));
+                        std::trunc(std::ldexp(predicate_inputs::uniform<double>(random), c.bits));
                     x = std::ldexp(
-                        fraction, spread / 2 - predicate_inputs::between(random, 0, spread) - bits);
+                        fraction,
+                        c.spread / 2 - predicate_inputs::between(random, 0, c.spread) - c.bits);
                 }
             return p;
         };
@@ -263,8 +261,8 @@ void add_exact_rows(const Entry& entry, const run_options& o, rows& table) {
                                   o.repeats());
         table.push_back({{"predicate", entry.name},
                          {"stage", stage_names[static_cast<std::size_t>(stage)]},
-                         {"bits", bits},
-                         {"exponents_over", spread},
+                         {"bits", c.bits},
+                         {"exponents_over", c.spread},
                          {"errbound", timings[0].ns(inputs)},
                          {"GMP_integers", timings[1].ns(inputs)},
                          {"errbound/GMP", timings[0].minimum / timings[1].minimum}});
