@@ -272,8 +272,8 @@ void print_special_signs() {
     using namespace errbound;
     constexpr auto turn_at_crossing =
         perturbed(with_constructed<line_line, given, given>(orient2d));
-    // The indices are those of the parents a, b, c, d and of q, r. All lines cross, also equal
-    // ones.
+    // Four indices are for the parents of the crossing (lines pq and qr), two for the explicit
+    // points p and r. Equal points have different indices here, so even equal lines cross.
     const sign_type t = turn_at_crossing({0, 1, 2, 3, 4, 5}, p, q, q, r, p, r);
     std::printf("the perturbed crossing is %s of the line\n\n",
                 t == sign_type::positive ? "left" : "right");

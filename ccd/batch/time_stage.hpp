@@ -82,7 +82,7 @@ class twofold_y {
         // a product of two 116u². N has 243u², and Y 1166u² < 2^-95. Proof: proofs/times/Twofold.v,
         // y_near, time_stage_sign, error_enough.
         error_ = m.x * m.y * m.z * pack(0x1p-94);
-        const pack least(0x1p-150), most(0x1p150);  // prevents underflow
+        const pack least(0x1p-150), most(0x1p150);  // prevents underflow and overflow
         usable_ = m.usable & (min(min(m.x, m.y), m.z) > least) & (max(max(m.x, m.y), m.z) < most);
     }
     const pack_mask& usable() const { return usable_; }

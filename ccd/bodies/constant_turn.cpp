@@ -280,7 +280,7 @@ class enclosed_search {
             ++pieces_ < options_.max_pieces && t.to - t.from > 0x1p-40 &&
             (t.bound == infinity || bound < t.bound / 2);  // otherwise roundings dominate
         if (!(bound < infinity)) return may_halve ? bound : leave(t.from);
-        if (certain_ <= t.to) {  // the piece has a contact, so only its length matters
+        if (certain_ <= t.to) {  // a contact is certain by now, so only the length matters
             if (t.to - t.from <= options_.resolution) return leave(t.from);
             if (may_halve) return bound;
         }

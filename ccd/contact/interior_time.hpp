@@ -113,10 +113,10 @@ class interior_time : interior_contact<Words, Forms, Effort> {
         return strict(forms_at(forms_, end - t, t));
     }
 
-    /// Considers the part's root if it is certainly the only one, else returns false. Next to a
-    /// double root, the weights may be taken at the double root. Proof:
-    /// proofs/times/InteriorTime.v, asked_root. Proof that the root of these weights is inside the
-    /// part: proofs/contact/InteriorContact.v, near_here.
+    /// Considers the part's root if it is certainly the only one, else returns false. If a double
+    /// root is near, near() may evaluate the weights there instead. Proof:
+    /// proofs/times/InteriorTime.v, asked_root. Proof that the root at which they are evaluated is
+    /// inside the part: proofs/contact/InteriorContact.v, near_here.
     constexpr bool root_of(const part& whole) {
         const bool others = this->three_real_roots_ || !this->distinct_;
         if (!whole.roots.opposite || (whole.roots.count > 1 && others)) return false;

@@ -294,7 +294,7 @@ class close_contact {
     const Forms<number<coordinate_words>, 1> forms_;
     const errbound::bernstein<number<3 * coordinate_words>, 3> y_;
     bool distinct_;          ///< Y has no multiple root
-    bool three_real_roots_;  ///< Y may have a pair of roots between equal signs
+    bool three_real_roots_;  ///< parts between equal signs may have two roots
 };
 
 /// For queries that decide_in_words leaves uncertain. Proof: proofs/contact/CloseContact.v,

@@ -189,9 +189,9 @@ class interior_contact {
             return near(whole, refined_place(y_, *bracket)).value_or(outcome::uncertain);
     }
 
-    /// True if N = 0 inside the bracket, at a root of Y without contact: the only one if Y has no
-    /// multiple root. Every G_i is then 0, so that no refined bracket decides. Proof:
-    /// proofs/contact/InteriorContact.v, normal_vanishes_right.
+    /// True if N = 0 inside the bracket, at a root of Y that is no contact. If Y has no multiple
+    /// root, the bracket has no other root. Every G_i is then 0, so that no refined bracket
+    /// decides. Proof: proofs/contact/InteriorContact.v, normal_vanishes_right.
     template <int T>
     constexpr bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
         const auto end = number<T>::shifted(1, bracket.bits);
@@ -240,7 +240,7 @@ class interior_contact {
     const integer_units& units_;
     bool triple_ = false;            ///< Y has a triple root, and no other
     bool distinct_ = true;           ///< no root of Y is known to be multiple
-    bool three_real_roots_ = false;  ///< Y may have a pair of roots between equal signs
+    bool three_real_roots_ = false;  ///< parts between equal signs may have two roots
 };
 
 }  // namespace ccd::detail

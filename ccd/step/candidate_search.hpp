@@ -47,7 +47,7 @@ class ordered_elements {
   private:
     std::vector<std::array<vertex_index, N>> elements_;
     bool ordered_ = false, by_doubles_ = false;
-    /// The least length of a tree's leaves since the last sort.
+    /// The least length_of_leaves() of the trees since the last sort.
     std::optional<double> least_of_boxes_, least_of_extents_;
 };
 
@@ -58,8 +58,8 @@ struct wanted_candidates {
     bool close = false;
     /// The search may omit pairs that do not meet until this time.
     double t_max = 1;
-    /// For t_max < 1: also pairs that may meet on the way to positions of `between` (ccd/step/
-    /// advance/advancing.hpp) at one fraction up to t_max, rounding included.
+    /// For t_max < 1: also pairs that may meet if all vertices go straight to the rounded positions
+    /// that `between` (ccd/step/advance/advancing.hpp) returns for one fraction up to t_max.
     bool spare = false;
     /// Only some of the close pairs; none if they cannot be found in floats.
     bool sample = false;
@@ -73,9 +73,9 @@ using resting_visitor =
     std::function<void(std::span<const face> elements, std::span<const element_pair> pairs)>;
 
 /// The search in one mesh. Keeps its working memory: 70 KB a thread, and about these numbers of
-/// bytes. For faces and edges, only the larger of both sums counts. For close pairs, the trees of
-/// edges take no more than those of faces, or of half of the edges. While few vertices are active,
-/// elements near them take 110 bytes more.
+/// bytes. Faces and edges share theirs: only the larger sum counts. With wanted_candidates::close,
+/// edges are searched in pieces: they take no more than the faces, or half of their sum if that is
+/// more. While few vertices are active, elements near them take 110 bytes more.
 ///
 ///                                    a face   an edge   a vertex
 ///     in floats                          40        44         18
@@ -152,7 +152,8 @@ class candidate_search {
         extents_tree first, second;
     };
 
-    /// Sorts elements by the order of the vertices, with cells that suit the sample.
+    /// Returns a function that sorts elements along the vertices' curve. Its cells are about as
+    /// large as the elements of `sample`.
     template <class Real, std::size_t N>
     auto sorting(const swept_boxes& boxes, const ordered_elements<N>& sample);
     template <kind K, class First, class Second>
@@ -164,8 +165,8 @@ class candidate_search {
     std::size_t find_adjacent_rods(const search_request& request);
     template <class Elements, class Sample>
     void improve_order(Elements& elements, const Sample& sample, const search_request& request);
-    /// Adds the candidates pair_of(i, j) of elements i and those of `b` that `find` finds. Trees
-    /// over the elements are built piece by piece.
+    /// Adds the candidate pair_of(i, j) for each i of `elements` and j of `b` that `find` reports.
+    /// Trees over the elements are built piece by piece.
     template <std::size_t N, class Blocks, class PairOf>
     void search_elements(search_kernels::find_pairs find, const search_request& request,
                          std::span<const std::array<vertex_index, N>> elements, extents_of ends,

@@ -23,8 +23,8 @@ constexpr std::size_t sampling_stride(std::size_t count) {
 /// The motion until a time t < 1, with rounded ends.
 class short_way {
   public:
-    /// With `spare`, the error also covers all ways to positions of `between`
-    /// (ccd/step/advance/advancing.hpp) at one fraction, at most t, for all vertices.
+    /// With `spare`, the error also covers straight ways to the rounded positions that `between`
+    /// (ccd/step/advance/advancing.hpp) returns for one fraction, at most t, of all vertices.
     /// Preconditions: positions are finite, 0 <= t < 1.
     short_way(const vertex_rows& way, double t, bool spare = false)
         : end_(way, t, spare),
@@ -92,10 +92,11 @@ class swept_boxes {
 
     /// The swept box of 1, 2 or 3 vertices. In doubles it is exact. If pairs have a distance, it is
     /// widened by the element's share, rounded outwards: boxes of elements that come within their
-    /// distance touch. It is widened by the error, too. Floats, which are for neither, give the box
-    /// of rounded positions. Rounding is monotone, so boxes that touch still do. Rounded boxes that
-    /// touch without a common end also touch exactly; if they have a common end, use touch().
-    /// Proof: proofs/filters/RoundedAxes.v, swept_rounded_first, swept_face_separate,
+    /// distance touch. It is widened by the error, too. Floats serve only without distances and
+    /// error, and give the box of rounded positions. Rounding is monotone, so boxes that touch
+    /// still do. If rounded boxes touch and no bound of one equals the opposite bound of the other,
+    /// the exact boxes touch; if such bounds are equal, use touch(). Proof:
+    /// proofs/filters/RoundedAxes.v, swept_rounded_first, swept_face_separate,
     /// swept_edges_separate, swept_boxes_touch.
     template <class Real, std::size_t N>
     box<Real> swept_box(const std::array<vertex_index, N>& element) const {
@@ -130,8 +131,8 @@ class swept_boxes {
     /// outwards.
     bool need_widening() const { return !distances_.is_contact() || error_ > 0; }
     /// True if floats do not suffice for rounded positions: there are distances; or in a sample,
-    /// more than one box in sixteen has zero length on an axis only after rounding, without the
-    /// error. The latter happens for small parts that are very far apart.
+    /// rounding makes more than one box in sixteen flat on an axis (boxes without the error). The
+    /// latter happens for small parts that are very far apart.
     template <std::size_t N>
     bool need_doubles(std::span<const std::array<vertex_index, N>> elements) const {
         if (!distances_.is_contact()) return true;

@@ -7,7 +7,8 @@ namespace {
 /// For arguments of sin, cos and tan: MPFR needs as many bits of π as the exponent.
 constexpr mpfr_exp_t largest_exponent_of_angles = 20000;
 
-/// Beyond 2^±this, results are unknown or nearly zero, as in every format with functions.
+/// Results above 2^this are unknown, those below 2^-this nearly zero. Every format with elementary
+/// functions overflows and underflows there, too.
 constexpr mpfr_exp_t largest_exponent_of_results = 1 << 15;
 
 bool is_wave(elementary_function f) {
@@ -71,7 +72,8 @@ bool has_pole(const ends& x) {
     return mpfr_lessequal_p(left.get(), right.get()) == 0;
 }
 
-/// True if x^y is monotone in x and in y: for x > 0, and for whole y if x < 0 or y > 0.
+/// True if the corners and x = 0 have the extrema of x^y: for x > 0, and for whole y if x < 0 or
+/// y > 0.
 bool has_monotone_power(const ends& x, const ball& y) {
     const bool is_whole = y.is_exact() && mpfr_integer_p(y.middle()) != 0;
     return mpfr_sgn(x.lower.get()) > 0 ||

@@ -23,8 +23,9 @@ struct advance_options {
     /// per body, pass connected_parts (ccd/mesh.hpp); for one per vertex, different indices.
     std::span<const int> groups = {};
     /// Each vertex goes at least as far as with its group (without groups: as with a group of its
-    /// own), and further up to planes between the elements of each pair in contact, as in
-    /// divide-and-truncate methods: motion along a contact is not limited.
+    /// own), and further up to planes. For each pair that would touch, a plane separates its two
+    /// elements where they are at the start, as in divide-and-truncate methods. Motion towards the
+    /// plane is limited, motion along it is not.
     bool each_vertex = false;
     /// The distances that pairs keep. If 0, pairs only avoid contact, and rods with a common vertex
     /// are tested too. With distances such rods are not tested: they may fold through each other,
@@ -58,7 +59,7 @@ struct advance_result {
     pair_lists first_pairs;        ///< the pairs with that time: they limit the step
     pair_lists touching_at_start;  ///< skipped: no step of these pairs is free
     pair_lists near_at_start;      ///< near at t = 0: only `keep` holds for them
-    /// Elements that intersect at t = 0, as step_result::intersections_at_start, with check_start.
+    /// With check_start: elements that intersect at t = 0, as step_result::intersections_at_start.
     /// They may move on through each other: only a start without them has a free result.
     std::vector<intersection> intersections_at_start;
 };

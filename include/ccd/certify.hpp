@@ -76,8 +76,8 @@ struct reason {
     /// The result of motion_after. With distances, it is `approaches` if the normal velocity is
     /// certainly negative, `slides` if it is 0 within its error, else `unknown`.
     contact_motion motion = contact_motion::unknown;
-    /// The member of first_contact. With distances, it is the velocity of the nearest points at
-    /// time.low along their normal.
+    /// Equal to first_contact::normal_velocity (ccd/contact.hpp) of the pair. With distances, it is
+    /// the velocity of the nearest points at time.low along their normal.
     double normal_velocity = 0;
     double normal_velocity_error = std::numeric_limits<double>::infinity();
     nearness at_start;

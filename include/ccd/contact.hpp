@@ -153,7 +153,7 @@ time_derivative derivative_of(const Query& query, const first_contact& contact);
 /// How features move on after their first contact.
 enum class contact_motion : std::uint8_t {
     unknown,     ///< there is no contact, or it is at the start and the features part or cross
-    approaches,  ///< each moves to the other side, or their normal velocity is certainly negative
+    approaches,  ///< one moves to the other side of the other, or the normal velocity is < 0
     touches,     ///< on one side before and after the bracket: they touch without crossing
     slides,      ///< the motion stays in the plane of the features, or on the line of the edge
 };

@@ -18,9 +18,9 @@
 namespace ccd {
 
 /// Runs the stages of ccd/explain.hpp until one decides; vertex/edge and vertex/vertex queries
-/// start with `integers`. `integers` decides a query (no exception is known) if, on each axis and
-/// at each end of the step, coordinates differ by less than 2^253 units. The unit is the largest
-/// power of two that divides all coordinates of the axis.
+/// start with `integers`. Every known query is decided by `integers` if coordinates differ by less
+/// than 2^253 units on each axis, at each end of the step. The unit is the largest power of two
+/// that divides all coordinates of the axis.
 ///
 /// Adds the counts and times of the stages to `report` if it is not null: some 50 ns a stage.
 template <any_query Query>

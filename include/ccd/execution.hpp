@@ -31,8 +31,8 @@ struct stopped : std::runtime_error {
 /// thread, where a host can check for signals. Return true to end the call by the exception
 /// `stopped`; an exception from the callback ends it, too. Empty: never polled.
 ///
-/// Batches poll every few thousand queries, and with distances for each time. Steps poll for each
-/// block of candidates and during the search, but not while they sort elements and pairs.
+/// Batches poll every few thousand queries; with distances, for each first time. Steps poll for
+/// each block of candidates and during the search, but not while they sort elements and pairs.
 using stop_query = std::function<bool()>;
 
 namespace detail {

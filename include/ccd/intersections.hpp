@@ -7,8 +7,8 @@
 // Elements are faces, edges of no face (rods), and vertices of neither (points). Two intersect if
 // they share a point outside the vertices and edges that both have by index. Degenerate elements
 // count as the segments or points that they are. For many frames of one mesh, use
-// mesh_steps::intersections. Results do not depend on the number of threads. Throws
-// std::invalid_argument for bad input.
+// mesh_steps::intersections. Results do not depend on the number of threads, except which pair
+// amount::first finds. Throws std::invalid_argument for bad input.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,8 @@ struct mesh_element {
     friend auto operator<=>(const mesh_element&, const mesh_element&) = default;
 };
 
-/// Names the element with fewer vertices first, in the order of reports.
+/// The kinds of intersecting elements, in the order of reports. Names have the element with fewer
+/// vertices first.
 enum class intersection_kind : std::uint8_t {
     face_face,
     edge_face,
@@ -159,8 +160,9 @@ struct intersection_result {
 /// group or flag per vertex. Also throws if the group rule or instruction set does not exist.
 ///
 /// Cost: trees over the elements, and their search. Faces around a vertex are tested together, in
-/// linear time, if they form a closed fan that projects along a coordinate axis without overlap;
-/// n others are n²/2 pairs. Memory: some 170 bytes an element, in addition to the result.
+/// linear time, if they form a fan that projects along a coordinate axis without overlap;
+/// otherwise, n faces around a vertex are n²/2 pairs. Memory: some 170 bytes an element, in
+/// addition to the result.
 intersection_result intersections(const mesh& mesh, const intersection_options& options = {});
 intersection_result intersections(std::span<const face> faces, std::span<const edge> edges,
                                   std::span<const point<double>> positions,

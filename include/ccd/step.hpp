@@ -38,7 +38,7 @@ struct step_options {
     bool first_contact = false;    ///< fill step_result::first_contact, and touching_at_start
     bool times = false;            ///< fill times, first_contact and touching_at_start
     bool check_start = false;      ///< fill step_result::intersections_at_start
-    /// Test rods with a common vertex, too: pairs of an end of one and the other. Not with
+    /// Also test rods with a common vertex: the other end of each against the other rod. Not with
     /// distances: run() then throws. An end that meets the common vertex is in contact. Without
     /// effect in the plane, where all these pairs are tested. Cost: n rods at a vertex make n²
     /// pairs.
@@ -96,8 +96,8 @@ struct step_result {
     /// times or t_max < 1 is given.
     first_time first_contact;
     pair_lists first_pairs;  ///< the members of `pairs` with that time
-    /// The mesh's intersections at t = 0, without segments, as mesh_steps::intersections reports
-    /// them, with check_start.
+    /// With check_start: the mesh's intersections at t = 0, as mesh_steps::intersections reports
+    /// them, but without segments.
     std::vector<intersection> intersections_at_start;
     double prepare_seconds = 0;       ///< input checks, the mesh's edges
     double broad_phase_seconds = 0;   ///< the search for candidates, without the narrow phase
@@ -126,11 +126,11 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 ///
 /// An element's swept box is the least box along the axes that contains it at every t. Candidates
 /// are the pairs that the filter keeps and whose swept boxes touch, borders included. With
-/// distances, boxes are first widened by each element's share, rounded outwards. Trees over the
-/// boxes, rounded to floats, find pairs, which are then compared in doubles, without error.
-/// Candidates are decided in blocks and not all stored. Without distances, count_candidates and
-/// explain, `exact` discards most candidates, those that an axis separates, during the search of
-/// the trees.
+/// distances, boxes are first widened by each element's thickness, or by half of `all`, rounded
+/// outwards. Trees over the boxes, rounded to floats, find pairs, which are then compared in
+/// doubles, without error. Candidates are decided in blocks and not all stored. Without distances,
+/// count_candidates and explain, `exact` discards most candidates, those that an axis separates,
+/// during the search of the trees.
 ///
 /// A face that repeats a vertex counts as a segment or point, and is paired as any other face.
 /// Faces with the same vertices count once, as do equal edges. All methods decide vertex/edge and

@@ -69,7 +69,8 @@ inline constexpr bool is_shape<points<Dimensions...>> = true;
 /// True for constructed points (errbound/predicates/constructed_points.hpp).
 template <class Point>
 inline constexpr bool is_constructed = false;
-/// True for expressions that return the sign of a fraction of polynomials, and zero if it has none.
+/// True for expressions that return the sign of a fraction of polynomials, or zero if its
+/// denominator is zero.
 template <class F>
 inline constexpr bool is_sign_of_fraction = false;
 template <class Number>
@@ -189,8 +190,8 @@ class predicate_type {
                      list, make});
     }
     /// The sign by this stage only; `uncertain` if the stage does not decide. Without a
-    /// tracked_rule, `tracked` uses `tight`. two_word_integers also decides expressions that
-    /// branch.
+    /// tracked_rule, `tracked` uses `tight`. Here two_word_integers also decides expressions that
+    /// branch, for which calls skip this stage.
     template <class... Points>
     constexpr sign_type by(predicate_stage stage, const Points&... p) const {
         using enum predicate_stage;
@@ -250,9 +251,9 @@ class predicate_type {
 ///   exact_doubles if they hold only coordinates of less than 8 bits.
 ///
 /// Contraction to FMA is allowed. Predicates work in constant expressions and in device code
-/// (compiled, not yet run). Filters cost 1 to 3 times the plain expression, integers about ten
-/// times; long_integers take up to 30 µs at degree 5. Optimised code needs at most 64 KiB of stack
-/// up to degree 32.
+/// (compiled, not yet run). Filters cost 1 to 3 times the plain expression, integers 10 to
+/// 100 times; long_integers take up to 30 µs at degree 5. Optimised code needs at most 64 KiB of
+/// stack up to degree 32.
 template <class Shape, class Options = predicate_options, class F>
 constexpr predicate_type<Shape, F, Options> predicate(F) {
     return {};

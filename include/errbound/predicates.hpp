@@ -100,7 +100,7 @@ struct row_sets {
         return t;
     }();
 };
-/// x − y + z − ..., from the last term to the first, which is positive for an odd count.
+/// The sum with alternating signs, + for the last term: x − y + z, but y − x for two terms.
 constexpr auto alternating_sum(const auto& x, const auto&... rest) {
     if constexpr (sizeof...(rest) == 0)
         return x;
@@ -340,8 +340,8 @@ constexpr sign_type point_in_tetrahedron(const auto& p, const auto& a, const aut
     return s;
 }
 /// The Minkowski sum of the box between corners a and b and the reflected segment is a polytope.
-/// The two meet if it contains the origin. Its faces are normal to an axis, or to an axis and the
-/// segment.
+/// The two meet if it contains the origin. Each of its faces is normal to an axis, or parallel to
+/// an axis and to the segment.
 template <int Dimension>
 constexpr sign_type segment_box(const auto& p, const auto& q, const auto& a, const auto& b) {
     bool touches = false;

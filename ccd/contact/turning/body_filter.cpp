@@ -127,12 +127,13 @@ body_filter<K>::body_filter(std::span<const body_point> points, const control_ma
 
 /// Let u = 2^-53. The size S has two terms for each feature. One is its body's largest_entry times
 /// the largest |x|₁ from the centre. The other is the largest |p|₁ of the centre's way. A
-/// coordinate of a control point has an error of at most 30uS: from the maps 25u, the difference x
-/// 1u, products and sums 3u, and the shift, which has errors of at most 9u of its size. A
-/// projection to an axis of length at most 1.001 multiplies this by at most |axis|₁ <= 1.74, and
-/// adds 1.74·3.01uS. Weights with relative errors of 10u each, and the sums of `exceeds`, add at
-/// most 1.74(20 + 20)uS. So 2^-45·S, which is 256uS, suffices. Underflow: each of at most 100
-/// operations loses at most 2^-1074 divided by weights of at least 2^-84.
+/// coordinate of a control point has an error of at most 30uS. The first terms have 25u from the
+/// maps, 1u from the difference `from_centre`, and 3u from products and sums. The second terms have
+/// 9u from the shift. The last addition has 1u of both. A projection to an axis of length at
+/// most 1.001 multiplies this by at most |axis|₁ <= 1.74, and adds 1.74·3.01uS. Weights with
+/// relative errors of 10u each, and the sums of `exceeds`, add at most 1.74(20 + 20)uS. So 2^-45·S,
+/// which is 256uS, suffices. Underflow: each of at most 100 operations loses at most 2^-1074
+/// divided by weights of at least 2^-84.
 template <kind K>
 bool body_filter<K>::separated_by_axes(double distance) const {
     if (!a_.usable || !b_.usable) return false;

@@ -215,7 +215,7 @@ class advancing {
     /// Separates the known pairs that are in contact on the way to the result's positions. Returns
     /// true if there were any.
     bool separate_known();
-    /// The same for all pairs of the mesh, which then become known.
+    /// The same for all pairs of the mesh. Pairs in contact become known.
     bool separate_others();
     /// Separates `found` and the pairs that other processes found.
     template <class Pair>

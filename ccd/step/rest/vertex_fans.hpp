@@ -6,9 +6,10 @@
 // around v by 2π at most, by less if the fan is open. Then two of the faces share only their common
 // vertices and edges.
 // Proof: angles of the projections at v are less than π and follow each other. So the projected
-// cones do not overlap, and two of them share v, or v and the ray through one w_i. A ray through
-// another w_j, too, would lie in four cones, two of which overlap. The projection is injective on
-// each face: two faces share v only, or points of their edge v w_i.
+// cones do not overlap, and two of them share v, or v and the ray through one w_i. This ray does
+// not pass through another w_j: it would bound two cones at w_i and two at w_j, of which two
+// overlap. The projection is injective on each face: two faces share v only, or points of their
+// edge v w_i.
 #pragma once
 
 #include <array>

@@ -166,35 +166,46 @@ class box_tree {
     /// Calls visit(i) for every box i for which `holds`, as for all nodes that contain it.
     template <class Holds, class Visit>
     void find_where(const Holds& holds, const Visit& visit) const {
-        if (packs_.empty()) return;
-        std::array<node, pack::size * max_levels> open;
-        std::size_t opened = 0;
-        open[opened++] = {levels_ - 1, 0};
-        while (opened > 0) {
-            const node n = open[--opened];
-            const pack& boxes = packs_[level_start_[n.level] + n.position];
+        const auto members_of = [&](const pack& boxes) {
+            pack_mask members = 0;
             for (std::size_t i = 0; i < pack::size; ++i) {
                 const box<Real> b = boxes[i];
-                if (!(b.low[0] <= b.high[0]) || !holds(b)) continue;  // the first: unused
-                const std::size_t child = pack::size * n.position + i;
-                if (n.level == 0)
-                    visit(child);
-                else
-                    open[opened++] = {n.level - 1, child};
+                const bool is_used = b.low[0] <= b.high[0];
+                members |= pack_mask(is_used && holds(b)) << i;
             }
-        }
+            return members;
+        };
+        descend(0, members_of, [&](std::size_t leaf, pack_mask members) {
+            for_each_bit(members, [&](std::size_t i) { visit(pack::size * leaf + i); });
+        });
     }
 
     /// Calls visit(p, members) for every leaf p >= first with members that touch b.
     template <class Visit>
     void find(const box<Real>& b, std::size_t first, const Visit& visit) const {
+        descend(
+            first, [&](const pack& boxes) { return boxes.touching(b); }, visit);
+    }
+
+  private:
+    struct node {
+        std::size_t level, position;
+    };
+    /// Eight to the power of 11 exceeds the number of indices.
+    static constexpr std::size_t max_levels = 11;
+    static constexpr std::size_t pack_bits = std::countr_zero(pack::size);
+
+    /// Calls visit(p, members) for every leaf p >= first with members. `members_of` selects boxes
+    /// of leaves and nodes.
+    template <class MembersOf, class Visit>
+    void descend(std::size_t first, const MembersOf& members_of, const Visit& visit) const {
         if (packs_.empty()) return;
         std::array<node, pack::size * max_levels> open;
         std::size_t opened = 0;
         open[opened++] = {levels_ - 1, 0};
         while (opened > 0) {
             const node n = open[--opened];
-            const pack_mask members = packs_[level_start_[n.level] + n.position].touching(b);
+            const pack_mask members = members_of(packs_[level_start_[n.level] + n.position]);
             if (n.level == 0) {
                 if (members != 0) visit(n.position, members);
                 continue;
@@ -206,14 +217,6 @@ class box_tree {
             });
         }
     }
-
-  private:
-    struct node {
-        std::size_t level, position;
-    };
-    /// Eight to the power of 11 exceeds the number of indices.
-    static constexpr std::size_t max_levels = 11;
-    static constexpr std::size_t pack_bits = std::countr_zero(pack::size);
 
     template <class BoxOf>
     void fill(std::size_t level, std::size_t count, const BoxOf& box_of) {

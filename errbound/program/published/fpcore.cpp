@@ -1,4 +1,4 @@
-// Expressions are evaluated with recorded numbers, preconditions with ranges.
+// Expressions are evaluated with recorded numbers, preconditions on one input with ranges.
 #include "errbound/program/published/fpcore.hpp"
 
 #include <cmath>
@@ -275,7 +275,7 @@ std::vector<fpcore> parse_fpcores(std::string_view text, const std::string& file
             if (property == ":round") core.rounding = value.atom;
             if (property == ":pre") core.precondition = value;
         }
-        // Some cores have an expression after :alt, which lacks its value.
+        // Some cores have :alt without a value: the loop then takes the body for it.
         core.body = e.items.back();
         all.push_back(std::move(core));
     }

@@ -320,8 +320,8 @@ class analysis {
     static bool is_scaling(const range& x) { return x.is_point() && is_power_of_two(x.lower()); }
 
     /// The rounded f of two operands, monotone in each; of one if `once`. `exact` encloses it. For
-    /// doubles, the ends of computed values are rounded ends. A largest one that is a power of two
-    /// may have been rounded down to it.
+    /// doubles, the computed range ends in the rounded f of the operands' ends. If the largest
+    /// magnitude is a power of two, the exact value may be larger, with an ulp twice as large.
     template <class Operation>
     void set_rounded(node_state& to, const range& exact, const range& x, const range& y, bool once,
                      const Operation& f) {

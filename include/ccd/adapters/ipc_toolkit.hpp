@@ -7,7 +7,7 @@
 // Decisions are exact, without tolerance or limit of iterations, and thread-safe. Coordinates,
 // min_distance >= 0 and tmax must be finite; otherwise the answer is true with `toi` 0. Cost: that
 // of time_of_impact (ccd/contact.hpp). With a distance or a gap it is that of time_within, but far
-// less if the features are not that near by tmax.
+// less if the features stay farther apart than these until tmax.
 #pragma once
 
 #include <cassert>

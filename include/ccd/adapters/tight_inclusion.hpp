@@ -77,8 +77,9 @@ bool answer(const Query& query, double ms, double t_max, bool no_zero_toi, T& to
 /// the answer is false.
 ///
 /// err, tolerance, max_itr and ccd_method are ignored, since nothing is rounded; output_tolerance
-/// is set to tolerance. With no_zero_toi, a pair within ms at the start is tested for contact only.
-/// Then `toi` is 0 only if the pair touches at the start, or before the least positive T.
+/// is set to tolerance. With no_zero_toi, a pair within sqrt(3) ms at the start is tested for
+/// contact only. Then `toi` is 0 only if the pair touches at the start, or before the least
+/// positive T.
 template <class T>
 requires std::same_as<T, double> || std::same_as<T, float>
 bool vertexFaceCCD(

@@ -44,9 +44,9 @@ struct enclosing_motion {
 };
 
 /// Encloses the turn between two times; t = 0 of the result is `from`, t = 1 is `to`. For a turn by
-/// θ <= π/2 between these times, the result's bound `angle` is at most about θ³/250 plus some units
-/// in the last place. For larger turns it is infinite. Precondition: 0 <= from < to <= 1; the turn
-/// is valid.
+/// θ <= π/2 between these times, the result's bound `angle` is about θ³/250, at most θ³/220, plus
+/// some units in the last place. For larger turns it is infinite. Precondition: 0 <= from < to <=
+/// 1; the turn is valid.
 enclosing_motion enclose(const constant_turn& motion, double from, double to);
 
 struct enclosed_time {

@@ -7,8 +7,9 @@
 //     const ccd::first_time touch = ccd::time_of_impact(query);
 //
 // Positions such as v and f0 are in the body's rest frame. Calls of ccd/curves.hpp accept such
-// queries and decide about the poses as given, without rounding. Cost: below a microsecond if
-// floating point decides, some for a time, 0.1 to 1 ms for degenerate contact; 0.16 s was seen.
+// queries and decide about the poses as given, without rounding. Cost: below a microsecond for a
+// decision in floating point, some microseconds for a first time, 0.1 to 1 ms for degenerate
+// contact; 0.16 s was seen.
 #pragma once
 
 #include <array>

@@ -15,7 +15,7 @@ enum class predicate_stage : std::uint8_t {
     exact_doubles,   ///< if coordinates are so short that results take at most 53 bits
     short_integers,  ///< if they are so short that results take at most 127 bits and a sign
     word_integers,
-    two_word_integers,  ///< not for expressions that branch
+    two_word_integers,  ///< skipped if the expression branches
     long_integers,      ///< any finite coordinates; or the options' exact type
 };
 inline constexpr std::size_t predicate_stage_count = 8;

@@ -1,9 +1,10 @@
 // The scalar of semi-static filters. It computes an expression's value and the largest coordinate
 // or coordinate difference, from which the error bound follows. Static filters instead compute the
-// expression with all terms positive (static_filter.hpp): a smaller bound, but with many terms more
-// work. If the bound is finite, no number of the expression has overflowed. A NaN coordinate makes
-// the value NaN. Proof: proofs/filters/SemiStatic.v, semi_static_overflow_uncertain. Source:
-// Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay triangulations.
+// expression with all terms positive (static_filter.hpp): their bound is smaller, but costs more if
+// there are many terms. If the bound is finite, no number of the expression has overflowed. A NaN
+// coordinate makes the value NaN. Proof: proofs/filters/SemiStatic.v,
+// semi_static_overflow_uncertain. Source: Devillers, Pion 2003, Efficient exact geometric
+// predicates for Delaunay triangulations.
 #pragma once
 
 #include <concepts>
@@ -29,8 +30,8 @@ struct semi_static {
     using value_type = T;
     static constexpr int roundings = Roundings, degree = Degree;
 
-    /// Replaces masses and allowances that are greater: constant expressions cannot overflow. No
-    /// bound trusts it.
+    /// Replaces greater masses and allowances, because an overflow in a constant expression does
+    /// not compile. It is above 1/u, so that bound() is then infinite.
     static constexpr T most = number_traits<T>::largest() / 16;
     static constexpr T limited(T x) { return x < most ? x : most; }
     /// Precondition: both are at most `most`.
@@ -154,8 +155,8 @@ constexpr auto operator*(std::same_as<int> auto c, const X& x) {
     return x * c;
 }
 
-/// A coordinate of the plain floating-point expression, whose value the bound covers. Differences
-/// are numbers; in other operations it converts to one.
+/// A coordinate for the evaluation of the expression in T. A difference, or the conversion to T in
+/// any other operation, updates *largest and returns a T.
 template <std::floating_point T>
 struct measured_coordinate {
     T value;

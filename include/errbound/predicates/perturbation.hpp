@@ -307,8 +307,8 @@ class perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> {
             store.terms.clear();
             const sign_type s = filters::sign_over<Shape>(F(), list, [&](const double& x) {
                 const auto i = static_cast<std::size_t>(&x - list.data());
-                return rank[i] < included ? number(store, make(x), rank[i])
-                                          : number(store, make(x));
+                return rank[i] < (std::min)(included, count) ? number(store, make(x), rank[i])
+                                                             : number(store, make(x));
             });
             if (certain(s)) return s;
         }
@@ -316,9 +316,9 @@ class perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> {
 };
 
 /// The predicate over perturbed points. Its expression must return a number, or be one of
-/// with_constructed. Template arguments are the indices of the coordinates to perturb; without any,
-/// all are. perturbed<3>(power_insphere) perturbs only weights, so no flat simplex gets a positive
-/// volume. The sign may then be zero (if all five points are coplanar).
+/// with_constructed. Template arguments are the indices of the coordinates to perturb, 0 for plain
+/// numbers; without any, all are. perturbed<3>(power_insphere) perturbs only weights, so no flat
+/// simplex gets a positive volume. The sign may then be zero (if all five points are coplanar).
 template <int... Coordinates, class Shape, class F, class Options>
 constexpr perturbed_predicate<predicate_type<Shape, F, Options>, Coordinates...> perturbed(
     const predicate_type<Shape, F, Options>&) {

@@ -8,6 +8,7 @@
 // treated as in `tight`; no overflow goes unnoticed.
 #pragma once
 
+#include <errbound/detail/absolute_bound.hpp>
 #include <errbound/detail/rounded.hpp>
 #include <errbound/detail/running_bound.hpp>
 #include <errbound/detail/sum_of_bounds.hpp>
@@ -15,35 +16,9 @@
 
 namespace errbound {
 
-struct sharp {
+struct sharp : detail::absolute_bound {
     static constexpr const char* name = "sharp";
     static constexpr int minimal_precision = 3;
-
-    template <class T>
-    struct bound {
-        T error;
-    };
-
-    /// Proof: proofs/rules/IeeeRules.v, tight_exact_known.
-    template <class T>
-    static constexpr bound<T> exact(const T& value) {
-        return {value - value};  // 0, or NaN if the value is not finite
-    }
-    /// Proof: proofs/rules/IeeeRules.v, tight_within_known.
-    template <class T>
-    static constexpr bound<T> within(const T& value, const T& error) {
-        return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
-    }
-    /// Bounds a number whose exact value is 0. Proof: proofs/rules/IeeeRules.v, tight_within_known.
-    template <class T>
-    static constexpr bound<T> displacement(const T& value) {
-        return within<T>(value, number_traits<T>::abs(value));
-    }
-    /// Proof of the resulting sign: proofs/rules/IeeeRules.v, sign_of_known.
-    template <class T>
-    static constexpr T error(const T&, const bound<T>& b) {
-        return b.error;
-    }
 
     /// |v − (a + b)| <= u|v| + σa + σb. The bound has three roundings, (1 + u)³ <= 1 + 4u = 1 + 2ε
     /// for u <= 1/8; 1 + ε is too small. Proof: proofs/rules/IeeeRules.v, sharp_add_known.
@@ -140,10 +115,6 @@ struct sharp {
     template <class T>
     static constexpr T inflated(const T& bound) {
         return detail::rounded_product(bound, T(1 + 4 * number_traits<T>::epsilon()));
-    }
-    template <class T>
-    static constexpr bool is_zero(rule_operand<T, sharp> a) {
-        return a.value == 0 && a.bound.error == 0;
     }
 };
 

@@ -10,6 +10,7 @@
 // tight_at_most_safe_computed.
 #pragma once
 
+#include <errbound/detail/absolute_bound.hpp>
 #include <errbound/detail/rounded.hpp>
 #include <errbound/detail/running_bound.hpp>
 #include <errbound/detail/sum_of_bounds.hpp>
@@ -17,41 +18,15 @@
 
 namespace errbound {
 
-struct tight {
+struct tight : detail::absolute_bound {
     static constexpr const char* name = "tight";
     static constexpr bool holds_in_directed_rounding = true;
     static constexpr bool holds_without_subnormals = true;
 
-    template <class T>
-    struct bound {
-        T error;
-    };
-
-    /// Proof: proofs/rules/IeeeRules.v, tight_exact_known.
-    template <class T>
-    static constexpr bound<T> exact(const T& value) {
-        return {value - value};  // 0, or NaN if the value is not finite
-    }
-    /// Proof: proofs/rules/IeeeRules.v, tight_within_known.
-    template <class T>
-    static constexpr bound<T> within(const T& value, const T& error) {
-        return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
-    }
-    /// Bounds a number whose exact value is 0. Proof: proofs/rules/IeeeRules.v, tight_within_known.
-    template <class T>
-    static constexpr bound<T> displacement(const T& value) {
-        return within<T>(value, number_traits<T>::abs(value));
-    }
-    /// Proof of the resulting sign: proofs/rules/IeeeRules.v, sign_of_known.
-    template <class T>
-    static constexpr T error(const T&, const bound<T>& b) {
-        return b.error;
-    }
-
-    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. In types of fewer than 40 bits, long sums do not
-    /// inflate σa and σb (detail/sum_of_bounds.hpp). Source: Theorem 1, Add. Proof:
-    /// proofs/rules/IeeeRules.v, tight_add_known; in any direction, proofs/rules/Tight.v,
-    /// tight_add_sound.
+    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. With p < 40, σa and σb are not inflated if
+    /// they far exceed the error of this sum, as in long sums (detail/sum_of_bounds.hpp). Source:
+    /// Theorem 1, Add. Proof: proofs/rules/IeeeRules.v, tight_add_known; in any direction,
+    /// proofs/rules/Tight.v, tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         using traits = number_traits<T>;
@@ -164,10 +139,6 @@ struct tight {
     template <class T>
     static constexpr T inflated(const T& bound) {
         return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
-    }
-    template <class T>
-    static constexpr bool is_zero(rule_operand<T, tight> a) {
-        return a.value == 0 && a.bound.error == 0;
     }
 };
 

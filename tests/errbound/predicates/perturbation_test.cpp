@@ -201,6 +201,19 @@ TEST(Perturbation, OfCustomPredicates) {
     EXPECT_EQ(above({1, 7}, point2{3, 1}, 0.0), sign_type::negative);
 }
 
+TEST(Perturbation, OfSomeCoordinatesMovesNoOthers) {
+    // Ten of 15 coordinates move. Their number is no power of two.
+    const auto height =
+        errbound::perturbed<0, 1>(errbound::predicate<errbound::points<3, 3, 3, 3, 3>>(
+            [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
+                return a[2] + (b[2] - c[2]) * (d[0] - e[1]);
+            }));
+    const std::array<double, 3> low{1, 1, 0}, high{1, 1, 2};
+    EXPECT_EQ(height({0, 1, 2, 3, 4}, low, low, low, low, high), sign_type::zero);
+    EXPECT_EQ(height({0, 1, 2, 3, 4}, low, high, low, low, high), sign_type::positive);
+    EXPECT_EQ(height({4, 1, 2, 3, 0}, low, high, low, low, high), sign_type::negative);
+}
+
 TEST(Perturbation, IsZeroForEqualIndicesOnly) {
     const auto turn = errbound::perturbed(errbound::orient2d);
     const point2 a{1, 2}, b{3, 4};
