@@ -23,7 +23,7 @@ LIMITS = [(PREDICATES, ["segments_intersect2d 2 4"], 4), (PREDICATES, ["segments
           (PREDICATES, ["segment_intersects_triangle 3 5"], 7),
           (PREDICATES, ["insphere 3 5"], 6), (PREDICATES, ["insphere4d 4 6"], 9),
           (PREDICATES, ["orient2d 2 3", "orient3d 3 4", "incircle 2 4", "insphere 3 5"], 9),
-          (PREDICATES, ["orient5d 5 6"], 8), (PREDICATES, ["insphere5d 5 7"], 11),
+          (PREDICATES, ["orient5d 5 6"], 8), (PREDICATES, ["insphere5d 5 7"], 9),
           ("errbound/predicate.hpp", [CUSTOM], 3),
           ("errbound/simplices/predicates.hpp", ["triangle_intersects_triangle 3 6"], 13)]
 

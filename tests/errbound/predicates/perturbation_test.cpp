@@ -146,6 +146,32 @@ TEST(Perturbation, OfConstructedPoints) {
                          5);
 }
 
+// A predicate of two constructed points, and of one at another: the same points, the same signs.
+TEST(Perturbation, OfConstructedPointsInTurn) {
+    using namespace errbound;
+    constexpr auto turn = predicate<points<2, 2>>(
+        [](const auto& p, const auto& q) { return p[0] * q[1] - p[1] * q[0]; });
+    constexpr auto both = with_constructed<line_line, line_line>(turn);
+    constexpr auto in_turn = with_constructed<given, given, given, given, line_line>(
+        with_constructed<line_line, given>(turn));
+    predicate_inputs::generator random(5);
+    int zeros = 0;
+    for (int i = 0; i < support::scaled(1000); ++i) {
+        std::array<point2, 8> p;
+        for (auto& point : p) point = {double(random() % 3), double(random() % 2)};
+        const auto indices = distinct_indices<8>(random);
+        const auto sign = [&](const auto& of) {
+            return std::apply([&](const auto&... q) { return of(indices, q...); }, p);
+        };
+        const sign_type s = sign(perturbed(both));
+        zeros += std::apply(both, p) == sign_type::zero;
+        ASSERT_EQ(std::apply(in_turn, p), std::apply(both, p));
+        ASSERT_EQ(sign(perturbed(in_turn)), s);
+        ASSERT_NE(s, sign_type::zero);
+    }
+    EXPECT_GT(zeros, 0);
+}
+
 // Signs of one configuration: the orientations of the triples of five points in the plane satisfy
 // the Grassmann-Plücker relation, here for many equal points.
 TEST(Perturbation, SignsDoNotContradictEachOther) {
