@@ -83,7 +83,7 @@ Lemma wider_than_vertex first others a e q : In q (first :: others) ->
   least (of_element first others a e) <= single (computed a e q - snd a) /\
   single (computed a e q + snd a) <= most (of_element first others a e).
 Proof.
-  intros I. cbn [of_element least most]. split; apply single_le, Rplus_le_compat_r; revert q I.
+  intros I. cbn [of_element least most]. split; apply single_le; auto; apply Rplus_le_compat_r; revert q I.
   - beyond_all (fun r q => r <= computed a e q).
   - beyond_all (fun r q => computed a e q <= r).
 Qed.
@@ -128,7 +128,7 @@ Proof.
   pose proof (rounded_near direction _ _ _ Pz Cz S Hz) as (Lz & Ez).
   unfold rounded_point, scaled, dot, minus. set (c := middle f) in *. set (s := scale f) in *. clearbody c s.
   destruct I as [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]; cbn [fst snd x y z];
-    (split; [now apply sum_size || now apply difference_size |]);
+    (split; [(now apply sum_size) || now apply difference_size |]);
     match goal with
     | A : Rabs (?a - ?r) <= _, B : Rabs (?b - ?t) <= _ |- Rabs (_ (?a + ?b) - ?v) <= _ =>
         replace v with (r + t) by ring; now apply sum_in_float
