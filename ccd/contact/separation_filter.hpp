@@ -103,8 +103,11 @@ class features {
         }
         const double unscaled = largest.x + largest.y + largest.z;
         if (!(unscaled > 0 && std::isfinite(unscaled))) return;
-        // A power of two is exact, except for underflow far below `tiny`.
-        const double scale = std::ldexp(1, std::clamp(-std::ilogb(unscaled), -1000, 1000));
+        // A power of two is exact, except for underflow far below `tiny`. It keeps products of four
+        // factors in range.
+        const bool in_range = unscaled > 0x1p-100 && unscaled < 0x1p100;
+        const double scale =
+            in_range ? 1 : std::ldexp(1, std::clamp(-std::ilogb(unscaled), -1000, 1000));
         for (std::size_t i = 0; i < count; ++i) {
             start_[i] = scale * start_[i];
             end_[i] = scale * end_[i];

@@ -62,7 +62,8 @@ first_time first_within_of_two(std::span<const body_point> points, const motion_
 /// Calls f with the chords of a point's motion, and returns its result.
 template <class F>
 first_time with_chords(const body_point& p, const F& f) {
-    return p.prepared != nullptr ? f(p.prepared->chords()) : f(motion_chords(*p.motion));
+    const bool is_prepared = p.prepared != nullptr && &p.prepared->motion() == p.motion;
+    return is_prepared ? f(p.prepared->chords()) : f(motion_chords(*p.motion));
 }
 
 }  // namespace
