@@ -198,10 +198,13 @@ class features {
     /// proofs/times/SeparationFilter.v, projection_near, separated_right, separated_part,
     /// axis_length, distance_rounded, size_rounded.
     bool separated(const vector& axis, double low, double high) const {
+        std::array<double, count> start, end;
+        for (std::size_t i = 0; i < count; ++i) {
+            start[i] = dot(axis, start_[i]);
+            end[i] = dot(axis, end_[i]);
+        }
         const auto gap = [&](double t) {
-            const auto at = [&](std::size_t i) {
-                return (1 - t) * dot(axis, start_[i]) + t * dot(axis, end_[i]);
-            };
+            const auto at = [&](std::size_t i) { return (1 - t) * start[i] + t * end[i]; };
             double greatest = at(0), least = at(first);
             for (std::size_t i = 1; i < first; ++i) greatest = std::max(greatest, at(i));
             for (std::size_t i = first + 1; i < count; ++i) least = std::min(least, at(i));

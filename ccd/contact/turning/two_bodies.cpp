@@ -87,8 +87,11 @@ first_time first_within_of_bodies(std::span<const body_point> points, separation
 
 template <curve_query Query>
 first_time first_within(const Query& query, separation d, double t_max, answer wanted) {
-    const auto points = points_of(query);
-    return first_within_of_bodies<kind_of<Query>>(points, d, t_max, wanted);
+    // The members lie one after the other.
+    const auto* points = reinterpret_cast<const body_point*>(&query);
+    constexpr std::size_t count = sizeof(query) / sizeof(body_point);
+    static_assert(count * sizeof(body_point) == sizeof(query));
+    return first_within_of_bodies<kind_of<Query>>({points, count}, d, t_max, wanted);
 }
 
 template first_time first_within(const vertex_face_of<body_point>&, separation, double, answer);
