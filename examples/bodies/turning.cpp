@@ -32,8 +32,7 @@ int main() {
     const ccd::first_time touch = ccd::time_of_impact(query);
     std::printf("the tip touches between t = %.17g and %.17g\n", touch.low, touch.high);
 
-    // Queries of prepared motions share the numbers of a motion.
-    const ccd::prepared_motion turns(quarter), rests(still);
+    const ccd::prepared_motion turns(quarter), rests(still);  // for many queries
     const ccd::vertex_face_of<ccd::body_point> prepared{turns.at({5, 0, 0}), rests.at({3, -9, -9}),
                                                         rests.at({3, 9, -9}), rests.at({3, 0, 9})};
     if (ccd::time_of_impact(prepared) != touch) return 1;
