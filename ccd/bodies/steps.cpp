@@ -71,12 +71,12 @@ struct element_sets {
 /// A body during one step.
 class swept_body {
   public:
-    /// Divides the step until points are within 2^-10 of their chords, in units of their distance
+    /// Divides the step until points are within 2^-8 of their chords, in units of their distance
     /// from the centre.
     swept_body(const body_motion& body, double distance) : motion(body), distance_(distance) {
         const double error = motion.chords().error_per_length;
         int parts = 1;
-        while (parts < 8 && error > 0x1p-10 * parts * parts) parts *= 2;
+        while (parts < 8 && error > 0x1p-8 * parts * parts) parts *= 2;
         for (int i = 0; i < parts; ++i)
             chords_.emplace_back(body, static_cast<double>(i) / parts,
                                  static_cast<double>(i + 1) / parts);

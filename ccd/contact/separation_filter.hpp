@@ -103,8 +103,11 @@ class features {
         }
         const double unscaled = largest.x + largest.y + largest.z;
         if (!(unscaled > 0 && std::isfinite(unscaled))) return;
-        // A power of two is exact, except for underflow far below `tiny`.
-        const double scale = std::ldexp(1, std::clamp(-std::ilogb(unscaled), -1000, 1000));
+        // A power of two is exact, except for underflow far below `tiny`. It keeps products of four
+        // factors in range.
+        const bool in_range = unscaled > 0x1p-100 && unscaled < 0x1p100;
+        const double scale =
+            in_range ? 1 : std::ldexp(1, std::clamp(-std::ilogb(unscaled), -1000, 1000));
         for (std::size_t i = 0; i < count; ++i) {
             start_[i] = scale * start_[i];
             end_[i] = scale * end_[i];
@@ -195,10 +198,13 @@ class features {
     /// proofs/times/SeparationFilter.v, projection_near, separated_right, separated_part,
     /// axis_length, distance_rounded, size_rounded.
     bool separated(const vector& axis, double low, double high) const {
+        std::array<double, count> start, end;
+        for (std::size_t i = 0; i < count; ++i) {
+            start[i] = dot(axis, start_[i]);
+            end[i] = dot(axis, end_[i]);
+        }
         const auto gap = [&](double t) {
-            const auto at = [&](std::size_t i) {
-                return (1 - t) * dot(axis, start_[i]) + t * dot(axis, end_[i]);
-            };
+            const auto at = [&](std::size_t i) { return (1 - t) * start[i] + t * end[i]; };
             double greatest = at(0), least = at(first);
             for (std::size_t i = 1; i < first; ++i) greatest = std::max(greatest, at(i));
             for (std::size_t i = first + 1; i < count; ++i) least = std::min(least, at(i));

@@ -32,12 +32,17 @@ int main() {
     const ccd::first_time touch = ccd::time_of_impact(query);
     std::printf("the tip touches between t = %.17g and %.17g\n", touch.low, touch.high);
 
+    const ccd::prepared_motion turns(quarter), rests(still);  // for many queries
+    const ccd::vertex_face_of<ccd::body_point> prepared{turns.at({5, 0, 0}), rests.at({3, -9, -9}),
+                                                        rests.at({3, 9, -9}), rests.at({3, 0, 9})};
+    if (ccd::time_of_impact(prepared) != touch) return 1;
+
     // Two turns about z, in pieces of a quarter. The tip passes the wall again and again.
     std::vector<ccd::body_motion> motions;
     std::vector<ccd::spline_piece<ccd::vertex_face_of<ccd::body_point>>> pieces;
-    const auto turns = ccd::turn({}, {0, 0, 1}, 4 * std::numbers::pi, {});
-    motions.reserve(turns.size());  // queries refer to the motions
-    for (const auto& [from, to, motion] : turns) {
+    const auto two_turns = ccd::turn({}, {0, 0, 1}, 4 * std::numbers::pi, {});
+    motions.reserve(two_turns.size());  // queries refer to the motions
+    for (const auto& [from, to, motion] : two_turns) {
         const auto* const part = &motions.emplace_back(motion);
         pieces.push_back({from, to, query});
         pieces.back().motion.v.motion = part;

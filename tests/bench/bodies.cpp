@@ -5,6 +5,7 @@
 #include <ccd/exact.hpp>
 #include <ccd/methods/transform.hpp>
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "tests/bench/sections.hpp"
@@ -18,17 +19,26 @@ using position = ccd::point<double>;
 enum class family { boxes, axes, plane, contact };
 constexpr std::string_view family_names[] = {"boxes", "axes", "plane", "contact"};
 
+/// The motions of two bodies. Some queries share them.
+using two_motions = std::array<ccd::prepared_motion, 2>;
+
 template <template <class> class Bodies, class Linear>
 struct query_pair {
-    std::array<ccd::body_motion, 2> motions;
+    std::shared_ptr<const two_motions> motions;
     std::array<position, 4> rest;
     Linear linear;  ///< between the same ends, rounded
 
+    const ccd::prepared_motion& motion_of(std::size_t i) const {
+        return (*motions)[i < ccd::kind_traits<ccd::kind_of<Linear>>::first_vertices ? 0 : 1];
+    }
     Bodies<ccd::body_point> bodies() const {
-        constexpr std::size_t first = ccd::kind_traits<ccd::kind_of<Linear>>::first_vertices;
         const auto at = [&](std::size_t i) {
-            return ccd::body_point{&motions[i < first ? 0 : 1], rest[i]};
+            return ccd::body_point{&motion_of(i).motion(), rest[i]};
         };
+        return {at(0), at(1), at(2), at(3)};
+    }
+    Bodies<ccd::body_point> prepared() const {
+        const auto at = [&](std::size_t i) { return motion_of(i).at(rest[i]); };
         return {at(0), at(1), at(2), at(3)};
     }
 };
@@ -41,15 +51,19 @@ double determinant(const position& a, const position& b, const position& c) {
            a.z * (b.x * c.y - b.y * c.x);
 }
 
-/// Draws elements with edges of about 1 that move by about 1 and turn by at most `angle`.
+/// Draws elements with edges of about 1 that move by about 1 and turn by at most `angle`, 16 in a
+/// row with the same motions.
 class drawn_queries {
   public:
     explicit drawn_queries(double angle) : angle_(angle) {}
 
     template <class Query>
     Query next() {
+        if (drawn_++ % 16 == 0)
+            motions_ = std::make_shared<two_motions>(
+                two_motions{ccd::prepared_motion(motion()), ccd::prepared_motion(motion())});
         Query q;
-        for (auto& motion : q.motions) motion = this->motion();
+        q.motions = motions_;
         for (auto& x : q.rest) x = point(0.6);
         return q;
     }
@@ -82,6 +96,8 @@ class drawn_queries {
     }
 
     double angle_;
+    std::size_t drawn_ = 0;
+    std::shared_ptr<const two_motions> motions_;
     std::mt19937 random_{1};
     std::uniform_real_distribution<double> number_{-1, 1};
 };
@@ -119,10 +135,8 @@ void add_rows(std::string_view kind, double angle, const options& o, rows& all) 
     const auto is_full = [&](const auto& f) { return f.size() == count; };
     while (!std::ranges::all_of(families, is_full)) {
         auto q = draw.template next<drawn>();
-        constexpr std::size_t first =
-            ccd::kind_traits<ccd::kind_of<Linear<double>>>::first_vertices;
         const auto at = [&](std::size_t i) -> ccd::moving_point<double> {
-            const auto& motion = q.motions[i < first ? 0 : 1];
+            const auto& motion = q.motion_of(i).motion();
             return {draw.moved(motion, q.rest[i], false), draw.moved(motion, q.rest[i], true)};
         };
         q.linear = {at(0), at(1), at(2), at(3)};
@@ -139,6 +153,7 @@ void add_rows(std::string_view kind, double angle, const options& o, rows& all) 
         const auto timings =
             race({each([](const drawn& q) { return ccd::decide_exact(q.linear); }),
                   each([](const drawn& q) { return ccd::decide_exact(q.bodies()); }),
+                  each([](const drawn& q) { return ccd::decide_exact(q.prepared()); }),
                   each([](const drawn& q) { return ccd::time_of_impact(q.linear); }),
                   each([](const drawn& q) { return ccd::time_of_impact(q.bodies()); })},
                  o.repeats());
@@ -150,8 +165,10 @@ void add_rows(std::string_view kind, double angle, const options& o, rows& all) 
         columns("linear", timings[0]);
         columns("bodies", timings[1]);
         all.back()["ratio"] = timings[1].minimum / timings[0].minimum;
-        columns("toi_linear", timings[2]);
-        columns("toi_bodies", timings[3]);
+        columns("prepared", timings[2]);
+        all.back()["prepared_ratio"] = timings[2].minimum / timings[0].minimum;
+        columns("toi_linear", timings[3]);
+        columns("toi_bodies", timings[4]);
     }
 }
 

@@ -39,17 +39,20 @@ double sum_of(const vector& p) {
 template <kind K>
 bool body_filter<K>::separated(double distance) const {
     std::array<moving_point<double>, count> chords;
-    std::array<double, 2> length{};
     double sum = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t body = i < first ? 0 : 1;
-        const motion_chords& motion = body == 0 ? a_ : b_;
-        const vector y = points_[i].rest - motion.centre;
-        chords[i] = motion.ends_of(y);
-        length[body] = std::max(length[body], sum_of(y));
-        sum += sum_of(y);
-    }
-    const double gap = distance * (1 + 0x1p-40) + (a_.error_of(length[0]) + b_.error_of(length[1]));
+    // Returns the error of a feature's chords.
+    const auto add = [&](const motion_chords& motion, std::size_t from, std::size_t to) {
+        double length = 0;
+        for (std::size_t i = from; i < to; ++i) {
+            const vector y = points_[i].rest - motion.centre;
+            chords[i] = motion.ends_of(y);
+            length = std::max(length, sum_of(y));
+            sum += sum_of(y);
+        }
+        return motion.error_of(length);
+    };
+    const double errors = add(a_, 0, first) + add(b_, first, count);
+    const double gap = distance * (1 + 0x1p-40) + errors;
     // False also if a coordinate is not finite. Otherwise no coordinate of a chord overflows, since
     // errors are at least 2^-46 of them.
     if (!(gap + sum < 0x1p900)) return false;

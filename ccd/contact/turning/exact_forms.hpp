@@ -155,7 +155,17 @@ std::optional<time_bracket> bracket_in_fixed_width(std::span<const body_point> p
     const exact_rigid_query<K> query(points, {*a, *b});
     if (query.bits() > fixed_integers::max_bits) return {};
     const auto y = query.template y<fixed_integers>();
-    return root_search(y).between(part.low, part.high, part.before, part.estimate);
+    const root_search search(y);
+    // Newton steps in floating point cost less than exact signs.
+    const errbound::bernstein<double, std::decay_t<decltype(y)>::degree> rounded{search.floating()};
+    const auto slope = derivative(rounded);
+    double estimate = part.estimate;
+    for (int i = 0; i < 4; ++i) {
+        const double next =
+            estimate - errbound::value_at(rounded, estimate) / errbound::value_at(slope, estimate);
+        if (next > part.low && next < part.high) estimate = next;
+    }
+    return search.between(part.low, part.high, part.before, estimate);
 }
 
 }  // namespace ccd::detail

@@ -62,7 +62,8 @@ first_time first_within_of_two(std::span<const body_point> points, const motion_
 /// Calls f with the chords of a point's motion, and returns its result.
 template <class F>
 first_time with_chords(const body_point& p, const F& f) {
-    return p.prepared != nullptr ? f(p.prepared->chords()) : f(motion_chords(*p.motion));
+    const bool is_prepared = p.prepared != nullptr && &p.prepared->motion() == p.motion;
+    return is_prepared ? f(p.prepared->chords()) : f(motion_chords(*p.motion));
 }
 
 }  // namespace
@@ -86,8 +87,11 @@ first_time first_within_of_bodies(std::span<const body_point> points, separation
 
 template <curve_query Query>
 first_time first_within(const Query& query, separation d, double t_max, answer wanted) {
-    const auto points = points_of(query);
-    return first_within_of_bodies<kind_of<Query>>(points, d, t_max, wanted);
+    // The members lie one after the other.
+    const auto* points = reinterpret_cast<const body_point*>(&query);
+    constexpr std::size_t count = sizeof(query) / sizeof(body_point);
+    static_assert(count * sizeof(body_point) == sizeof(query));
+    return first_within_of_bodies<kind_of<Query>>({points, count}, d, t_max, wanted);
 }
 
 template first_time first_within(const vertex_face_of<body_point>&, separation, double, answer);

@@ -149,7 +149,8 @@ struct motion_chords {
 }  // namespace detail
 
 /// A motion with numbers that each query needs, computed once. Queries of its points give the same
-/// results as those of {&motion, rest}. If boxes or axes decide, they take about half the time.
+/// results as those of {&motion, rest}. They take a third to half of the time if boxes or axes
+/// decide.
 class prepared_motion {
   public:
     explicit prepared_motion(const body_motion& motion) : motion_(motion), chords_(motion) {}
