@@ -1,13 +1,11 @@
 """Writes scenes of bodies for `ccd bodies`: gears, a falling stack of boxes, a needle through a rotating ring.
 
-usage: make_scenes.py FOLDER
-
 Makes FOLDER/NAME/scene.json and its meshes, OBJ, for each NAME: gears, boxes, needle.
 """
+import argparse
 import json
 import math
 import pathlib
-import sys
 
 
 def prism(outline, height):
@@ -94,10 +92,11 @@ def needle():
 
 
 def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
+    line = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    line.add_argument("folder", type=pathlib.Path)
+    folder_of_all = line.parse_args().folder
     for make in gears, boxes, needle:
-        folder = pathlib.Path(sys.argv[1]) / make.__name__
+        folder = folder_of_all / make.__name__
         folder.mkdir(parents=True, exist_ok=True)
         meshes, scene = make()
         for name, (vertices, faces) in meshes.items():
