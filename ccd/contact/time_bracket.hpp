@@ -52,8 +52,8 @@ class root_search {
     /// The coefficients, rounded and scaled by one power of two.
     constexpr const std::array<double, N + 1>& floating() const { return floating_.h; }
 
-    /// Returns the only root in (low, high), where the polynomial changes its sign; or another of
-    /// its roots there that is a double. `before` is the sign just above low. Returns nothing if
+    /// The polynomial changes its sign at exactly one root in (low, high). Returns this root, or
+    /// another root there that is a double. `before` is the sign just above low. Returns nothing if
     /// the root is too near to 0 for fixed widths. Proof: proofs/times/TimeBrackets.v,
     /// search_right; of the loop and the number of signs, proofs/times/TimeSearch.v,
     /// between_searches, search_ends, double_numbers.

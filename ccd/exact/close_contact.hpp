@@ -205,13 +205,15 @@ class close_contact {
     bool any_root(const inner_sign_changes& roots) const {
         return roots.opposite || (three_real_roots_ && roots.count > 0);
     }
-    /// True if the part has exactly one root that is not a double root, and that root is simple.
+    /// True if, except for a possible double root, the part has exactly one root, a simple one.
+    /// Precondition: Y has no triple root.
     bool is_single(const inner_sign_changes& roots) const {
         return roots.opposite && (roots.count == 1 || !three_real_roots_);
     }
 
-    /// A part with the same roots (except a double root), if estimates show one. Proof, for any
-    /// estimates: proofs/contact/CloseContact.v, opposite_inside, as_many_changes.
+    /// Returns a narrower part with the same roots (a double root may be lost), if estimates lead
+    /// to one. Proof, for any estimates: proofs/contact/CloseContact.v, opposite_inside,
+    /// as_many_changes.
     std::optional<part> narrowed(const part& whole) const {
         const auto h = approximated(whole.y.h);
         if (is_single(whole.roots)) {

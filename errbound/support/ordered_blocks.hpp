@@ -93,9 +93,13 @@ class ordered_blocks {
                 Result result = compute_(block);
                 const std::scoped_lock lock(mutex_);
                 waiting_.emplace(block, std::move(result));
-                for (auto at = waiting_.begin(); at != waiting_.end() && at->first == merged_;
-                     at = waiting_.erase(at), ++merged_)
-                    merge_(std::move(at->second));
+                while (!merging_ && !waiting_.empty() && waiting_.begin()->first == merged_) {
+                    auto next = waiting_.extract(waiting_.begin());
+                    merging_ = true;
+                    merge_(std::move(next.mapped()));
+                    merging_ = false;
+                    ++merged_;
+                }
             } catch (...) {
                 ending_ = true;
                 const std::scoped_lock lock(mutex_);
@@ -117,6 +121,7 @@ class ordered_blocks {
     std::mutex mutex_;  // of merging and of the members that follow
     std::condition_variable finished_;
     std::map<std::uint64_t, Result> waiting_;  // for blocks before them
+    bool merging_ = false;                     // stays true if merge throws
     std::exception_ptr failure_;
     std::uint64_t working_ = 0;
     joined_threads threads_;  // joined before the other members are destroyed

@@ -31,7 +31,7 @@ struct advance_options {
     /// are tested too. With distances such rods are not tested: they may fold through each other,
     /// which certify (ccd/certify.hpp) finds.
     pair_distances distances = {};
-    /// Pairs that start within their distance, or nearer than 1 + 2^-10 times it, may come nearer,
+    /// Pairs that start nearer than (1 + 2^-10) times their distance may come nearer,
     /// but not below this share of their distance at the start: in [0, 1). So pairs that rest at
     /// their distance can slide on. With 0, pairs that start within their distance must only not
     /// touch. All others keep their whole distance, so a pair just above it stops its group.

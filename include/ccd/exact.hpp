@@ -18,8 +18,9 @@
 namespace ccd {
 
 /// Runs the stages of ccd/explain.hpp until one decides; vertex/edge and vertex/vertex queries
-/// start with `integers`. Every known query is decided by `integers` if coordinates differ by less
-/// than 2^253 units on each axis, at each end of the step. The unit is the largest power of two
+/// start with `integers`. If coordinates
+/// differ by less than 2^253 units on each axis, at each end of the step, `integers` decides: no
+/// exception is known, and no proof excludes one. The unit is the largest power of two
 /// that divides all coordinates of the axis.
 ///
 /// Adds the counts and times of the stages to `report` if it is not null: some 50 ns a stage.

@@ -153,9 +153,9 @@ struct least_distance_result {
     friend bool operator==(const least_distance_result&, const least_distance_result&) = default;
 };
 
-/// Returns the least distance of the pairs of the mesh at t = 0. Throws as near_pairs. Cost: mostly
-/// that of two searches: pairs whose boxes touch give an upper bound, and all pairs within it the
-/// least distance.
+/// Returns the least distance of the pairs of the mesh at t = 0. Throws as near_pairs. Cost: if
+/// some boxes touch, that of two searches: for an upper bound, then for all pairs within it.
+/// Otherwise, of up to a dozen searches at growing distances.
 least_distance_result least_distance(mesh_steps& mesh, const vertex_rows& positions,
                                      const near_options& options = {});
 least_distance_result least_distance(const mesh& mesh, const near_options& options = {});

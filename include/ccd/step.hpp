@@ -128,10 +128,10 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 /// An element's swept box is the least box along the axes that contains it at every t. Candidates
 /// are the pairs that the filter keeps and whose swept boxes touch, borders included. With
 /// distances, boxes are first widened by each element's thickness, or by half of `all`, rounded
-/// outwards. Trees over the boxes, rounded to floats, find pairs, which are then compared in
-/// doubles, without error. Candidates are decided in blocks and not all stored. Without distances,
-/// count_candidates and explain, `exact` discards most candidates, those that an axis separates,
-/// during the search of the trees.
+/// outwards. Trees over the boxes, rounded to floats, find pairs, whose exact
+/// boxes are then compared. Candidates are decided in blocks and not all
+/// stored. Without distances, count_candidates and explain, `exact` discards most candidates, those
+/// that an axis separates, during the search of the trees.
 ///
 /// A face that repeats a vertex counts as a segment or point, and is paired as any other face.
 /// Faces with the same vertices count once, as do equal edges. All methods decide vertex/edge and

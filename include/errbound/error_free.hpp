@@ -103,9 +103,9 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
 /// float). An operand must be zero, or 2^(2p)·η <= |value| <= largest()/4 (from 2^-968 for double,
 /// 2^-101 for float). Without FMA also p >= least_precision_for_split. Derivation: the error and
 /// Dekker's intermediate results are multiples of ulp(a)·ulp(b), which is at least η, since |a| <
-/// 2^p·ulp(a), |b| < 2^p·ulp(b) and |ab| >= |value|/(1 + u). No overflow: products in split() are
-/// below 2^(s+1)·|x|, value parts at most 1.25|x|. Proof: proofs/rules/IeeeInterval.v,
-/// product_known.
+/// 2^p·ulp(a), |b| < 2^p·ulp(b) and |ab| >= |value|/(1 + u). No overflow: in split(x), for x = a or
+/// b, products are below 2^(s+1)·|x| and high parts at most 1.25|x|. Proof:
+/// proofs/rules/IeeeInterval.v, product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
     using traits = number_traits<T>;

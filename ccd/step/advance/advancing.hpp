@@ -165,7 +165,8 @@ inline pair_distances near_distances(const advance_options& options, std::vector
 template <class Others>
 class advancing {
   public:
-    /// Precondition: `groups` joins only vertices of one given group, or all if `islands` is false.
+    /// Precondition: `groups` joins only vertices with one index in advance_options::groups, or all
+    /// if `islands` is false.
     /// With `islands`, groups have their own fractions.
     advancing(mesh_steps& steps, const vertex_rows& way, const advance_options& options,
               bool islands, vertex_groups& groups, Others& others)

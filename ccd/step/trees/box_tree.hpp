@@ -86,7 +86,7 @@ class box_pack {
         });
     }
 
-    /// Returns the boxes that touch b without a common end.
+    /// Returns the boxes that touch b, no bound of which equals the opposite bound of b.
     pack_mask overlapping(const box<Real>& b) const {
         return mask_of([&](std::size_t part) {
             lanes found = lanes{} - 1;
@@ -148,8 +148,8 @@ class box_tree {
     /// Leaf p holds boxes 8 p to 8 p + 7.
     std::span<const pack> leaves() const { return {packs_.data(), level_start_[1]}; }
 
-    /// The leaves' lengths along the axes; 0 if there is only one leaf. A good order keeps them
-    /// small.
+    /// The sum of the leaves' lengths along the axes; 0 if there is only one leaf. A good order
+    /// keeps it small.
     double length_of_leaves() const {
         double sum = 0;
         if (levels_ < 2) return sum;
@@ -161,7 +161,8 @@ class box_tree {
         return sum;
     }
 
-    /// Calls visit(i) for every box i for which `holds`, as for all nodes that contain it.
+    /// Calls visit(i) for every box i with holds(box). Precondition: holds is then true for every
+    /// box that contains it.
     template <class Holds, class Visit>
     void find_where(const Holds& holds, const Visit& visit) const {
         const auto members_of = [&](const pack& boxes) {
@@ -237,7 +238,8 @@ class box_tree {
 };
 
 /// Calls visit(local, i, j, certain) for all pairs of box i of `a` and box j of `b` that touch. If
-/// both are one tree, visits each pair once. `certain`: they have no common end. Calls come from
+/// both are one tree, visits each pair once. `certain`: no bound of one equals
+/// the opposite bound of the other, so boxes before rounding touch, too. Calls come from
 /// several threads at once; `local` is local_of() of the calling thread.
 template <class Real, class LocalOf, class Visit>
 void for_each_touching(const box_tree<Real>& a, const box_tree<Real>& b, const LocalOf& local_of,

@@ -22,7 +22,7 @@ namespace errbound::filters {
 /// Ŝ is the computed size. At most 2k + 2 roundings reduce Ŝ, by a factor of at least 1 − u each.
 /// Half of each τ covers underflow in x̂ (below), the other half covers underflow in Ŝ. So |x̂ − x|
 /// <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ. The slack of at least 3u covers rounding the
-/// constant and the bound; the last rounding of x̂ is monotone. Since uτ is a normal number, the
+/// constant and the bound. Since uτ is a normal number, the
 /// bound does not underflow.
 template <std::floating_point T>
 constexpr T filter_constant(int k) {

@@ -175,8 +175,8 @@ struct rule_check {
 
 // A rule may use + − × ÷ of T (no a += b), negation, comparisons, construction from int,
 // number_traits<T>. All members are static. Functions are templates over T, called as
-// Rule::add<T>(result, a, b); for negate, sign and is_crowded, T is deduced. Operands a, b and c
-// are rule_operand<T, Rule>. Functions are usually constexpr.
+// Rule::add<T>(result, a, b); for exact, within, error, negate, sign and is_crowded, T is deduced,
+// too. Operands a, b and c are rule_operand<T, Rule>. Functions are usually constexpr.
 //   name                                    for tables and messages
 //   template <class T> struct bound         the state stored with a value, of any size
 //   exact(value)                            the bound of an exact number
