@@ -181,13 +181,13 @@ inline constexpr bool is_constructed_coordinate = false;
 template <std::size_t I, class A, class X, class D>
 inline constexpr bool is_constructed_coordinate<constructed_coordinate<I, A, X, D>> = true;
 template <class X>
-inline constexpr int fraction_level = std::numeric_limits<int>::max();
+inline constexpr int fraction_level = (std::numeric_limits<int>::max)();
 template <class N, class D, class P>
 inline constexpr int fraction_level<fraction<N, D, P>> = D::level;
 template <std::size_t I, class A, class X, class D>
 inline constexpr int fraction_level<constructed_coordinate<I, A, X, D>> = D::level;
 template <class X>
-concept fraction_operand = fraction_level<X> < std::numeric_limits<int>::max();
+concept fraction_operand = fraction_level<X> < (std::numeric_limits<int>::max)();
 template <class X, class Y>
 concept of_equal_level = (fraction_level<X> == fraction_level<Y>);
 /// A number without denominators of X's level: an int, a number, or a fraction of a higher level.
