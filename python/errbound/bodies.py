@@ -29,7 +29,6 @@ class BodyStep:
 
     Vertices are numbered consecutively over all bodies.
 
-
     times: by kind, dictionaries of low and high, float64 (k,), as in ccd.FirstTimes, in the order of pairs.
     first_contact: (low, high) of the earliest pair that does not touch at t = 0, or None. first_pairs: the pairs with
     that time. candidates: counts by kind. body_pairs: the number of two bodies whose swept boxes touch.

@@ -6,8 +6,10 @@
 //     const ccd::body_advance free = steps.advance(motions);     // motions without contact
 //
 // Exact, as one query (ccd/bodies/motion.hpp): no pair is missed, none is reported without contact.
-// Pairs are of elements of different bodies, as in ccd/step.hpp. Results do not depend on the
-// number of threads. Throws std::invalid_argument for bad input.
+// Pairs are of elements of different bodies, as in ccd/step.hpp. Start from bodies that do not
+// intersect: an edge that goes through the inside of another body's face throughout is in no pair,
+// and advance() does not see it. Results do not depend on the number of threads. Throws
+// std::invalid_argument for bad input.
 #pragma once
 
 #include <ccd/bodies/motion.hpp>

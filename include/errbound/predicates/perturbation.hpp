@@ -6,7 +6,8 @@
 // the same perturbed points, so signs never contradict each other. A sign is zero only if arguments
 // have the same index, or only some coordinates are perturbed. It is uncertain only if a coordinate
 // is not finite. If the exact sign is zero, a call costs 1 to 20 µs (more for equal points) and
-// allocates; std::bad_alloc if memory runs out. Source: Edelsbrunner, Mücke 1990, Simulation of
+// allocates. Constructed points that coincide can take seconds and gigabytes; std::bad_alloc if
+// memory runs out. Source: Edelsbrunner, Mücke 1990, Simulation of
 // Simplicity. Proof: docs/authoring-predicates.md.
 #pragma once
 
