@@ -86,7 +86,10 @@ void whole_constructions(bool quick, report& out) {
     add_construction(
         table, repeats, sites.size(), "Delaunay triangulation in space",
         [&] { return count_simplices<true>(sites); }, [&] { return count_simplices<false>(sites); },
-        [&] { return cgal_delaunay3d(sites); });
+        [&]() -> std::size_t {
+            if constexpr (have_cgal) return cgal_delaunay3d(sites);
+            return 0;
+        });
 
     const auto ends = random.points<2>(quick ? 40 : 600);
     std::vector<arrangements::segment> segments;
@@ -97,7 +100,10 @@ void whole_constructions(bool quick, report& out) {
         table, repeats, segments.size(), "arrangement of segments",
         [&] { return arrangements::sweep<true>(segments).run().vertices; },
         [&] { return arrangements::sweep<false>(segments).run().vertices; },
-        [&] { return cgal_arrangement(ends); });
+        [&]() -> std::size_t {
+            if constexpr (have_cgal) return cgal_arrangement(ends);
+            return 0;
+        });
 
     const std::size_t size = quick ? 20 : 500;
     const auto first = random.polygon(size, 0, 0), second = random.polygon(size, 0.2, 0.1);
@@ -109,7 +115,10 @@ void whole_constructions(bool quick, report& out) {
     add_construction(
         table, repeats, 2 * size, "intersection of polygons",
         [&] { return common.operator()<true>(); }, [&] { return common.operator()<false>(); },
-        [&] { return cgal_intersection(first, second); });
+        [&]() -> std::size_t {
+            if constexpr (have_cgal) return cgal_intersection(first, second);
+            return 0;
+        });
     out.table("predicates", {{"what", "constructions"}}, "examples/geometry, ms", table);
 }
 
