@@ -4,7 +4,9 @@
 #include <ccd/methods/forms.hpp>
 #include <cmath>
 #include <errbound/bernstein.hpp>
+#include <optional>
 #include <tuple>
+#include <variant>
 
 #include "ccd/contact/moving_points.hpp"
 #include "ccd/contact/separation_filter.hpp"
@@ -33,6 +35,14 @@ double sum_of(const vector& p) {
 }
 
 }  // namespace
+
+std::optional<rigid_motion> as_rigid(const body_motion& motion) {
+    if (const auto* rigid = std::get_if<rigid_motion>(&motion)) return *rigid;
+    const auto* affine = std::get_if<affine_motion>(&motion);
+    if (affine == nullptr) return rigid_motion{};
+    if (affine->a0 != identity3 || affine->a1 != identity3) return {};
+    return rigid_motion{{}, {}, affine->p0, affine->p1, {}};
+}
 
 /// Features whose chords stay farther apart than the distance plus both errors are separate: their
 /// points are that near to the chords at each time. 1 + 2^-40 covers the rounding of the sum.

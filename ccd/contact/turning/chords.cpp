@@ -4,12 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <variant>
 
 #include "ccd/contact/moving_points.hpp"
 #include "ccd/contact/rotation.hpp"
-#include "ccd/contact/turning/body_filter.hpp"
 
 namespace ccd::detail {
 namespace {
@@ -45,14 +43,6 @@ double size_of(const std::array<double, 6>& shift) {
 }
 
 }  // namespace
-
-std::optional<rigid_motion> as_rigid(const body_motion& motion) {
-    if (const auto* rigid = std::get_if<rigid_motion>(&motion)) return *rigid;
-    const auto* affine = std::get_if<affine_motion>(&motion);
-    if (affine == nullptr) return rigid_motion{};
-    if (affine->a0 != identity3 || affine->a1 != identity3) return {};
-    return rigid_motion{{}, {}, affine->p0, affine->p1, {}};
-}
 
 /// Rounding: let u = 2^-53 and let E bound the entries. Between 0 and 1, q(t) has an error of at
 /// most 3.01u times the larger |q|, and is at least 1/11 as long: the rotation is off by at most
