@@ -228,6 +228,7 @@ using timed_pairs = std::vector<timed_pair<K>>;
 struct findings {
     by_kind<timed_pairs> pairs;
     pair_counts candidates;
+    std::vector<edge_face_pair> crossings;  ///< at t = 0
 };
 
 /// Calls visit(i, j), i < j, for all boxes that touch. Cost: O(n log n + n m) for m boxes that
@@ -277,6 +278,10 @@ void collect(detail::per_thread<findings>& found, body_step_result& result) {
                 result.touching_at_start.of<K>().push_back(pair);
         }
     });
+    for (const findings* f : found.all())
+        result.crossing_at_start.insert(result.crossing_at_start.end(), f->crossings.begin(),
+                                        f->crossings.end());
+    std::ranges::sort(result.crossing_at_start);
 }
 
 }  // namespace
@@ -344,11 +349,11 @@ struct body_steps::state {
         }
     };
 
-    /// Decides all pairs of element sets whose boxes touch.
-    template <kind K, class First, class Second>
-    static void decide(const near_elements& a, const First& of_a, const near_elements& b,
-                       const Second& of_b, const body_step_options& options,
-                       detail::per_thread<findings>& found) {
+    /// Calls visit(local, x, y) for all elements x, y of the sets whose boxes touch.
+    template <class First, class Second, class Visit>
+    static void for_each_near(const near_elements& a, const First& of_a, const near_elements& b,
+                              const Second& of_b, const body_step_options& options,
+                              detail::per_thread<findings>& found, const Visit& visit) {
         if (of_a.elements.empty() || of_b.elements.empty()) return;
         detail::for_each_touching(
             of_a.tree, of_b.tree,
@@ -357,8 +362,20 @@ struct body_steps::state {
                 return found.local();
             },
             [&](findings& local, std::size_t i, std::size_t j, bool) {
-                const auto pair = detail::candidate_of(numbered(of_a.elements[i], *a.body),
-                                                       numbered(of_b.elements[j], *b.body));
+                visit(local, numbered(of_a.elements[i], *a.body),
+                      numbered(of_b.elements[j], *b.body));
+            });
+    }
+
+    /// Decides all pairs of element sets whose boxes touch.
+    template <kind K, class First, class Second>
+    static void decide(const near_elements& a, const First& of_a, const near_elements& b,
+                       const Second& of_b, const body_step_options& options,
+                       detail::per_thread<findings>& found) {
+        for_each_near(
+            a, of_a, b, of_b, options, found,
+            [&](findings& local, const auto& of_first, const auto& of_second) {
+                const auto pair = detail::candidate_of(of_first, of_second);
                 ++local.candidates.template of<K>();
                 const auto points = detail::with_members(
                     pair, [&](auto... v) { return std::array{(a.has(v) ? a : b).point_of(v)...}; });
@@ -369,16 +386,39 @@ struct body_steps::state {
             });
     }
 
-    /// Decides pairs of the swept bodies p and q.
-    void decide_bodies(const swept_bodies& swept, std::size_t p, std::size_t q,
-                       const body_step_options& options,
-                       detail::per_thread<findings>& found) const {
+    /// Finds the edges of a that go through faces of b at t = 0.
+    static void find_crossings(const near_elements& a, const near_elements& b,
+                               const body_step_options& options,
+                               detail::per_thread<findings>& found) {
+        for_each_near(a, a.elements.edges, b, b.elements.faces, options, found,
+                      [&](findings& local, edge e, face f) {
+                          if (!detail::crosses_at_start(
+                                  {a.point_of(e[0]), a.point_of(e[1])},
+                                  {b.point_of(f[0]), b.point_of(f[1]), b.point_of(f[2])}))
+                              return;
+                          std::ranges::sort(e);
+                          std::ranges::sort(f);
+                          local.crossings.push_back({e, f});
+                      });
+    }
+
+    /// The elements of the swept bodies p and q near each other.
+    std::pair<near_elements, near_elements> near_each_other(const swept_bodies& swept,
+                                                            std::size_t p, std::size_t q) const {
         box<double> region = swept.box_of_all[q];
         const auto near = [&](std::size_t i) -> near_elements {
             const body_at_rest& body = bodies[swept.index[i]];
             return {&body, &swept.body[i].motion, body.near(swept.body[i], region)};
         };
-        const near_elements a = near(p), b = near(q);
+        near_elements a = near(p);
+        return {std::move(a), near(q)};
+    }
+
+    /// Decides pairs of the swept bodies p and q.
+    void decide_bodies(const swept_bodies& swept, std::size_t p, std::size_t q,
+                       const body_step_options& options,
+                       detail::per_thread<findings>& found) const {
+        const auto [a, b] = near_each_other(swept, p, q);
         decide<kind::vertex_face>(a, a.elements.vertices, b, b.elements.faces, options, found);
         decide<kind::vertex_face>(b, b.elements.vertices, a, a.elements.faces, options, found);
         decide<kind::edge_edge>(a, a.elements.edges, b, b.elements.edges, options, found);
@@ -437,12 +477,22 @@ body_step_result body_steps::run(std::span<const body_motion> motions,
     const auto swept = state_->sweep(motions, distance);
     const auto partners = state_->partners(swept, motions, options);
     result.body_pairs = partners.size();
+    std::vector<body_motion> starts;
+    if (options.check_start)
+        for (const body_motion& motion : motions) starts.push_back(until(motion, 0));
+    const auto at_start = state_->sweep(starts, 0);
     detail::per_thread<findings> found;
     detail::on_threads(options.threads, [&] {
         for (const auto& [p, q] : partners)
             for (const std::size_t body : {p, q}) state_->bodies[swept.index[body]].prepare();
         detail::for_each_index(partners.size(), [&](std::size_t i) {
-            state_->decide_bodies(swept, partners[i].first, partners[i].second, options, found);
+            const auto [p, q] = partners[i];
+            state_->decide_bodies(swept, p, q, options, found);
+            if (!options.check_start || !touch(at_start.box_of_all[p], at_start.box_of_all[q]))
+                return;
+            const auto [a, b] = state_->near_each_other(at_start, p, q);
+            state::find_crossings(a, b, options, found);
+            state::find_crossings(b, a, options, found);
         });
     });
     collect(found, result);
@@ -480,6 +530,8 @@ body_advance body_steps::advance(std::span<const body_motion> motions,
     result.first_contact = found.first_contact;
     result.first_pairs = std::move(found.first_pairs);
     result.touching_at_start = std::move(found.touching_at_start);
+    result.crossing_at_start = std::move(found.crossing_at_start);
+    step.check_start = false;
     // Each round gives up more of the way, at last all of it. Without motion no contact is new.
     double lost = 0x1p-52;
     for (first_time contact = result.first_contact; is_after_start(contact);) {

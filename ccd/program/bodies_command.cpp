@@ -26,10 +26,10 @@ namespace {
 using errbound::support::row;
 using errbound::support::usage_error;
 
-/// The pairs of elements of two bodies that touch in a step.
+/// The pairs of elements of two bodies that touch in a step, and those that cross at its start.
 struct meeting {
     first_time first;  ///< the earliest
-    std::size_t at_start = 0;
+    std::size_t at_start = 0, crossing = 0;
     pair_counts pairs;
 };
 
@@ -59,6 +59,11 @@ std::map<std::pair<std::size_t, std::size_t>, meeting> meetings_of(const body_st
             ++both.pairs.of<K>();
         }
     });
+    for (const auto& [e, f] : found.crossing_at_start) {
+        meeting& both = all[std::minmax(steps.body_of(e[0]), steps.body_of(f[0]))];
+        both.first = {outcome::collides, 0, 0};
+        ++both.crossing;
+    }
     return all;
 }
 
@@ -80,7 +85,8 @@ class bodies final : public command {
                    "-: standard output");
         add_output(line_, "--pairs", pairs_,
                    "Write lines STEP,vf,v,f0,f1,f2,low,high (also ee, ve, vv) of the pairs of\n"
-                   "elements that touch. Vertices are numbered consecutively over all bodies;\n"
+                   "elements that touch, and STEP,ef,e0,e1,f0,f1,f2 of edges that cross faces\n"
+                   "at the start. Vertices are numbered consecutively over all bodies;\n"
                    "-: standard output");
         add_output(line_, "--json", json_, "Write all steps as JSON; -: standard output");
         add(line_, "--view", view_,
@@ -89,6 +95,9 @@ class bodies final : public command {
             .ends_in(".html");
         add_triangulate_option(line_, reading_.triangulate);
         add_threads_option(line_, options_.threads);
+        options_.check_start = true;
+        add_flag(line_, "!--no-check-start", options_.check_start,
+                 "Do not look for edges that cross faces at a step's start");
     }
 
     exit_status run() override {
@@ -142,7 +151,8 @@ class bodies final : public command {
                                              {"time", scene_time(step.index, found.first)},
                                              {"low", found.first.low},
                                              {"high", found.first.high},
-                                             {"touching_at_start", found.at_start}});
+                                             {"touching_at_start", found.at_start},
+                                             {"crossing_at_start", found.crossing}});
             for_each_kind([&]<kind K>() { line[std::string(name(K))] = found.pairs.of<K>(); });
         }
         return all;
@@ -170,8 +180,14 @@ class bodies final : public command {
         errbound::support::rows all;
         for (const decided_step& step : steps_)
             for (row& line : rows_of(step)) all.push_back(std::move(line));
-        std::vector<std::string> columns = {"step", "body_a", "body_b",           "time",
-                                            "low",  "high",   "touching_at_start"};
+        std::vector<std::string> columns = {"step",
+                                            "body_a",
+                                            "body_b",
+                                            "time",
+                                            "low",
+                                            "high",
+                                            "touching_at_start",
+                                            "crossing_at_start"};
         for_each_kind([&]<kind K>() { columns.emplace_back(name(K)); });
         return errbound::support::csv_of(columns, all);
     }
@@ -179,7 +195,8 @@ class bodies final : public command {
     std::string lines() const {
         std::string all;
         for (const decided_step& step : steps_) {
-            const std::string of_step = lines_of_pairs(step.found.pairs, &step.found.times);
+            const std::string of_step = lines_of_pairs(step.found.pairs, &step.found.times) +
+                                        lines_of_edge_faces(step.found.crossing_at_start);
             for (std::size_t at = 0; at < of_step.size();) {
                 const std::size_t end = of_step.find('\n', at) + 1;
                 all += std::to_string(step.index) + ',' + of_step.substr(at, end - at);

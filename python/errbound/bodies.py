@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import (Doubles, as_array, check_finite, check_shape, checked_indices, distance_option, doubles, end_time,
-                      option, restated)
+from ._arrays import (Doubles, Indices, as_array, check_finite, check_shape, checked_indices, distance_option, doubles,
+                      end_time, option, restated)
 from ._results import Pairs, Times, _first, _listed
 
 __all__ = ["BodyAdvance", "BodyStep", "Bodies"]
@@ -31,7 +31,8 @@ class BodyStep:
 
     times: by kind, dictionaries of low and high, float64 (k,), as in ccd.FirstTimes, in the order of pairs.
     first_contact: (low, high) of the earliest pair that does not touch at t = 0, or None. first_pairs: the pairs with
-    that time. candidates: counts by kind. body_pairs: the number of two bodies whose swept boxes touch.
+    that time. crossing_at_start (option check_start): edges that go through the inside of another body's face at t = 0,
+    (k, 5): e0 e1 f0 f1 f2. candidates: counts by kind. body_pairs: the number of two bodies whose swept boxes touch.
     """
     pairs: Pairs
     times: Times
@@ -40,6 +41,7 @@ class BodyStep:
     first_pairs: Pairs
     candidates: dict[str, int]
     body_pairs: int
+    crossing_at_start: Indices | None = None
 
     def __repr__(self) -> str:
         return f"<bodies.BodyStep, {_listed(self.pairs)}; {_first(self.first_contact)}>"
@@ -51,13 +53,14 @@ class BodyAdvance:
 
     poses: in the form of start, (n, 7) or (n, 4, 4). Start the next step from exactly these: with quaternions that you
     normalise, nothing is certified. fraction: of the way of all bodies. first_contact: (low, high) of the earliest
-    contact on the whole way, or None; first_pairs: the pairs with that time.
+    contact on the whole way, or None; first_pairs: the pairs with that time. crossing_at_start: as in BodyStep.
     """
     poses: Doubles
     fraction: float
     first_contact: tuple[float, float] | None
     first_pairs: Pairs
     touching_at_start: Pairs
+    crossing_at_start: Indices | None = None
 
     def __repr__(self) -> str:
         return f"<bodies.BodyAdvance of {len(self.poses)} bodies: fraction {self.fraction!r}, {_first(self.first_contact)}>"
@@ -149,15 +152,17 @@ class Bodies:
         return at_start, at_end
 
     def run(self, start: ArrayLike, end: ArrayLike, *, distance: float = 0, t_max: float = 1,
-            threads: int = 0) -> BodyStep:
+            check_start: bool = False, threads: int = 0) -> BodyStep:
         """Returns the pairs that touch, or come within `distance`, in [0, t_max], with first times.
 
-        start, end: the bodies' poses at t = 0 and t = 1, (n, 7) or (n, 4, 4). Throws: ValueError with the body if its
+        start, end: the bodies' poses at t = 0 and t = 1, (n, 7) or (n, 4, 4). check_start: fills crossing_at_start. An
+        edge inside another body's face during the whole step is in no pair. Throws: ValueError with the body if its
         two orientations differ by half a turn or nearly so: use poses between them.
         """
         ways = self._ways(start, end)
         try:
-            found = self._bodies.run(*ways, distance_option(distance), end_time(t_max), option("threads", threads, int))
+            found = self._bodies.run(*ways, distance_option(distance), end_time(t_max),
+                                     option("check_start", check_start, bool), option("threads", threads, int))
         except ValueError as error:
             raise restated(error) from None
         for name in "pairs", "first_pairs", "touching_at_start":
@@ -165,7 +170,7 @@ class Bodies:
         return BodyStep(**found)
 
     def advance(self, start: ArrayLike, end: ArrayLike, *, distance: float = 0, conservative: float = 1,
-                threads: int = 0) -> BodyAdvance:
+                check_start: bool = False, threads: int = 0) -> BodyAdvance:
         """Returns the poses of the longest common step that was found to be free of contact.
 
         conservative: the share of the way to the first contact (or distance) that is used, in (0, 1]. Otherwise as run.
@@ -175,7 +180,8 @@ class Bodies:
         if not (math.isfinite(share) and 0 < share <= 1):
             raise ValueError(f"conservative is {share}; expected a number in (0, 1]")
         try:
-            found = self._bodies.advance(*ways, distance_option(distance), share, option("threads", threads, int))
+            found = self._bodies.advance(*ways, distance_option(distance), share,
+                                         option("check_start", check_start, bool), option("threads", threads, int))
         except ValueError as error:
             raise restated(error) from None
         for name in "first_pairs", "touching_at_start":

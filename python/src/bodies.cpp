@@ -88,9 +88,13 @@ class bodies {
         return without_gil(call);
     }
 
-    ccd::body_step_options options(double distance, double t_max, int threads,
+    ccd::body_step_options options(double distance, double t_max, bool check_start, int threads,
                                    const ccd::stop_query& stop) const {
-        ccd::body_step_options options{{distance, 0}, t_max, threads, stop, {}};
+        ccd::body_step_options options{.distance = {distance, 0},
+                                       .t_max = t_max,
+                                       .check_start = check_start,
+                                       .threads = threads,
+                                       .stop = stop};
         if (groups_.empty() && skipped_.empty()) return options;
         options.may_touch = [this](std::size_t a, std::size_t b) {
             return (groups_.empty() || groups_[a] != groups_[b]) &&
@@ -107,10 +111,11 @@ class bodies {
           groups_(groups.data(), groups.data() + groups.size()),
           skipped_(items_of<pair>(skipped).begin(), items_of<pair>(skipped).end()) {}
 
-    nb::dict run(const poses& from, const poses& to, double distance, double t_max, int threads) {
+    nb::dict run(const poses& from, const poses& to, double distance, double t_max,
+                 bool check_start, int threads) {
         const auto motions = motions_of(from, to);
         ccd::body_step_result result = alone([&](const ccd::stop_query& stop) {
-            return steps_.run(motions, options(distance, t_max, threads, stop));
+            return steps_.run(motions, options(distance, t_max, check_start, threads, stop));
         });
         nb::dict found;
         found["candidates"] = counts_of(result.candidates);
@@ -118,16 +123,18 @@ class bodies {
         found["times"] = of_each_kind(std::move(result.times),
                                       [](auto&& times) { return times_of(std::move(times)); });
         found["touching_at_start"] = pairs_of(std::move(result.touching_at_start));
+        add_crossing(found, result.crossing_at_start, check_start);
         found["first_contact"] = time_of(result.first_contact);
         found["first_pairs"] = pairs_of(std::move(result.first_pairs));
         found["body_pairs"] = result.body_pairs;
         return found;
     }
     nb::dict advance(const poses& from, const poses& to, double distance, double conservative,
-                     int threads) {
+                     bool check_start, int threads) {
         const auto motions = motions_of(from, to);
         ccd::body_advance result = alone([&](const ccd::stop_query& stop) {
-            return steps_.advance(motions, {options(distance, 1, threads, stop), conservative});
+            return steps_.advance(motions,
+                                  {options(distance, 1, check_start, threads, stop), conservative});
         });
         nb::dict found;
         found["poses"] = from.shape(1) == affine_size ? ends_of(result.motions, affine_end)
@@ -136,10 +143,18 @@ class bodies {
         found["first_contact"] = time_of(result.first_contact);
         found["first_pairs"] = pairs_of(std::move(result.first_pairs));
         found["touching_at_start"] = pairs_of(std::move(result.touching_at_start));
+        add_crossing(found, result.crossing_at_start, check_start);
         return found;
     }
 
   private:
+    static void add_crossing(nb::dict& found, std::vector<ccd::edge_face_pair>& crossing,
+                             bool check_start) {
+        found["crossing_at_start"] = nb::none();
+        if (check_start)
+            found["crossing_at_start"] = rows_of<ccd::vertex_index>(std::move(crossing));
+    }
+
     ccd::body_steps steps_;
     std::vector<std::int32_t> groups_;  ///< one per body, or none
     std::vector<pair> skipped_;         ///< sorted, the lesser body first
@@ -154,9 +169,9 @@ void bind_bodies(nb::module_& m) {
                       const input<std::int32_t, -1, 2>&>(),
              nb::arg("shapes"), nb::arg("groups"), nb::arg("skipped"))
         .def("run", &bodies::run, nb::arg("start"), nb::arg("end"), nb::arg("distance"),
-             nb::arg("t_max"), nb::arg("threads"))
+             nb::arg("t_max"), nb::arg("check_start"), nb::arg("threads"))
         .def("advance", &bodies::advance, nb::arg("start"), nb::arg("end"), nb::arg("distance"),
-             nb::arg("conservative"), nb::arg("threads"));
+             nb::arg("conservative"), nb::arg("check_start"), nb::arg("threads"));
 }
 
 }  // namespace errbound::python

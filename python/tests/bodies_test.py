@@ -53,6 +53,17 @@ def test_motion_without_rotation_is_a_step_of_one_mesh():
     assert np.array_equal(affine.pairs.edge_edge, found.pairs.edge_edge)
 
 
+def test_an_edge_inside_a_face_crosses_it_at_the_start():
+    bodies = Bodies([([[1, 1, -1], [1, 1, 1]], [], [[0, 1]]), TRIANGLE])
+    start, end = [pose(), pose()], [pose((5, 0, 0), (1, 0, 0, 1)), pose((5, 0, 0), (1, 0, 0, 1))]
+    for call in bodies.run, bodies.advance:
+        assert call(start, end).crossing_at_start is None
+        assert call(start, end, check_start=True).crossing_at_start.tolist() == [[0, 1, 2, 3, 4]]
+    lifted = [pose((0, 0, 1)), pose()]
+    found = bodies.run(lifted, start, check_start=True)
+    assert len(found.touching_at_start) == 1 and found.crossing_at_start.shape == (0, 5)
+
+
 def test_advance_ends_at_poses_that_are_free():
     bodies = Bodies([(CUBE * [4, 0.5, 0.5], FACES), (CUBE * [9, 0.25, 9], FACES)])
     start, end = [pose(), pose((0, 3.25, 0))], [pose(q=(1, 0, 0, 1)), pose((0, 3.25, 0))]

@@ -2,6 +2,7 @@
 
 #include <ccd/methods/transform.hpp>
 #include <cmath>
+#include <errbound/tracked.hpp>
 #include <optional>
 
 #include "ccd/contact/condition.hpp"
@@ -83,6 +84,63 @@ first_time first_within_of_bodies(std::span<const body_point> points, separation
             return first_within_of_two<K>(points, a, b, d, t_max, wanted);
         });
     });
+}
+
+namespace {
+
+using bounded_position = triple<errbound::tracked<double>>;
+
+/// The position at t = 0. Precondition: the point is prepared.
+bounded_position start_of(const body_point& p) {
+    const motion_chords& chords = p.prepared->chords();
+    const point<double>&x = p.rest, &c = chords.centre, y{x.x - c.x, x.y - c.y, x.z - c.z};
+    const point<double> start = chords.ends_of(y).t0;
+    const double error = chords.error_of(std::abs(y.x) + std::abs(y.y) + std::abs(y.z));
+    const auto near = [&](double coordinate) {
+        return errbound::tracked<double>::within(coordinate, error);
+    };
+    return {near(start.x), near(start.y), near(start.z)};
+}
+
+bounded_position difference(const bounded_position& to, const bounded_position& from) {
+    return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+}
+
+/// The sign of Y at t = 0: of the volume of the points. `starts` are their positions.
+template <kind K>
+errbound::sign_type sign_at_start(const std::array<body_point, 4>& points,
+                                  const std::array<const bounded_position*, 4>& starts) {
+    const auto [p, q, r, s] = starts;
+    const auto volume =
+        K == kind::vertex_face
+            ? dot(cross(difference(*r, *q), difference(*s, *q)), difference(*p, *q))
+            : dot(cross(difference(*q, *p), difference(*s, *r)), difference(*r, *p));
+    if (const auto sign = sign_of(volume); certain(sign)) return sign;
+    const time_polynomial y = y_of_bodies<K>(points);
+    return y.is_zero() ? errbound::sign_type::zero : sign_of(y.coefficients().front());
+}
+
+}  // namespace
+
+bool crosses_at_start(const std::array<body_point, 2>& edge,
+                      const std::array<body_point, 3>& face) {
+    const std::array ends{start_of(edge[0]), start_of(edge[1])};
+    const std::array corners{start_of(face[0]), start_of(face[1]), start_of(face[2])};
+    const auto side_of_end = [&](std::size_t i) {
+        return sign_at_start<kind::vertex_face>(
+            {edge[i], face[0], face[1], face[2]},
+            {&ends[i], corners.data(), &corners[1], &corners[2]});
+    };
+    const auto side_of_border = [&](std::size_t i) {
+        const std::size_t j = (i + 1) % 3;
+        return sign_at_start<kind::edge_edge>({edge[0], edge[1], face[i], face[j]},
+                                              {ends.data(), &ends[1], &corners[i], &corners[j]});
+    };
+    constexpr auto none = errbound::sign_type::zero;
+    const auto side = side_of_end(0);
+    if (side == none || side_of_end(1) != -side) return false;
+    const auto turn = side_of_border(0);
+    return turn != none && side_of_border(1) == turn && side_of_border(2) == turn;
 }
 
 template <curve_query Query>

@@ -1,7 +1,8 @@
 // First times of two bodies' features: the stages of ccd/contact/turning/body_filter.hpp, then
-// those of all curves. Internal.
+// those of all curves. Crossings at the start. Internal.
 #pragma once
 
+#include <array>
 #include <ccd/bodies/motion.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
@@ -14,5 +15,10 @@ namespace ccd::detail {
 template <kind K>
 first_time first_within_of_bodies(std::span<const body_point> points, separation d, double t_max,
                                   answer wanted);
+
+/// True if, at t = 0, the ends of the edge are on different sides of the face's plane and the
+/// inside of the edge meets the inside of the face. Exact. Preconditions: the points of each have
+/// one prepared, valid motion.
+bool crosses_at_start(const std::array<body_point, 2>& edge, const std::array<body_point, 3>& face);
 
 }  // namespace ccd::detail

@@ -178,7 +178,15 @@ std::string page_of(const body_steps& steps, std::span<const body_motion> motion
         bodies.motions += bytes_of_motion(motions[b]);
         append_number(bodies.ends, steps.first_vertex(b + 1));
     }
-    const step_view step{vertex_rows(all, all), all.faces, all.edges, found.pairs, found.times};
+    std::vector<intersection> crossing;
+    for (const auto& [e, f] : found.crossing_at_start)
+        crossing.push_back({{2, {e[0], e[1]}}, {3, f}, errbound::relation::crossing});
+    const step_view step{.positions = vertex_rows(all, all),
+                         .faces = all.faces,
+                         .edges = all.edges,
+                         .pairs = found.pairs,
+                         .times = found.times,
+                         .intersections = crossing};
     detail::require_view(step);
     return page_of_arrays(arrays_of(step, bodies));
 }

@@ -6,14 +6,15 @@
 //     const ccd::body_advance free = steps.advance(motions);     // motions without contact
 //
 // Exact, as one query (ccd/bodies/motion.hpp): no pair is missed, none is reported without contact.
-// Pairs are of elements of different bodies, as in ccd/step.hpp. Start from bodies that do not
-// intersect: an edge that goes through the inside of another body's face throughout is in no pair,
-// and advance() does not see it. Results do not depend on the number of threads. Throws
-// std::invalid_argument for bad input.
+// Pairs are of elements of different bodies, as in ccd/step.hpp. An edge that goes through the
+// inside of another body's face throughout is in no pair, and advance() does not see it:
+// body_step_options::check_start reports it. Results do not depend on the number of threads.
+// Throws std::invalid_argument for bad input.
 #pragma once
 
 #include <ccd/bodies/motion.hpp>
 #include <ccd/execution.hpp>
+#include <ccd/intersections.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/query.hpp>
@@ -29,6 +30,7 @@ namespace ccd {
 struct body_step_options {
     separation distance = {};  ///< report pairs within this distance instead of pairs in contact
     double t_max = 1;          ///< report only pairs with a contact in [0, t_max]
+    bool check_start = false;  ///< fill crossing_at_start
     int threads = 0;           ///< at most; 0: one per core
     stop_query stop = {};      ///< ends the call by throwing ccd::stopped
     /// True for two bodies whose pairs are tested; empty: all. Called once for each two bodies
@@ -42,10 +44,14 @@ struct body_step_result {
     pair_lists pairs;
     time_lists times;              ///< the first time of each of `pairs`
     pair_lists touching_at_start;  ///< the members of `pairs` that touch at t = 0
-    first_time first_contact;      ///< the earliest not at t = 0; `separate` if there is none
-    pair_lists first_pairs;        ///< the members of `pairs` with that time
-    std::size_t body_pairs = 0;    ///< two bodies whose swept boxes touch, and that were tested
-    pair_counts candidates;        ///< pairs whose swept boxes touch
+    /// With check_start: edges that go through the inside of another body's face at t = 0, sorted.
+    /// Surfaces of two bodies share a point at t = 0 if and only if the bodies have a pair here or
+    /// one that touches at t = 0. Exact for the poses as given, without rounding.
+    std::vector<edge_face_pair> crossing_at_start;
+    first_time first_contact;    ///< the earliest not at t = 0; `separate` if there is none
+    pair_lists first_pairs;      ///< the members of `pairs` with that time
+    std::size_t body_pairs = 0;  ///< two bodies whose swept boxes touch, and that were tested
+    pair_counts candidates;      ///< pairs whose swept boxes touch
 };
 
 struct body_advance_options {
@@ -63,6 +69,7 @@ struct body_advance {
     first_time first_contact;      ///< on the whole way, as in body_step_result
     pair_lists first_pairs;        ///< the pairs with that time: they limit the step
     pair_lists touching_at_start;  ///< skipped: no step of these pairs is free
+    std::vector<edge_face_pair> crossing_at_start;  ///< as in body_step_result
 };
 
 /// Returns the motion until t = fraction, with a rounded end, for another step.

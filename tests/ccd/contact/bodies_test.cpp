@@ -23,6 +23,7 @@
 
 #include "ccd/contact/rotation.hpp"
 #include "ccd/contact/turning/body_filter.hpp"
+#include "tests/ccd/bodies/positions.hpp"
 #include "tests/ccd/contact/by_hand.hpp"
 #include "tests/support/first_time_faults.hpp"
 #include "tests/support/oracle_rational.hpp"
@@ -643,39 +644,7 @@ TEST(random_body_queries, pass_filters_that_agree_with_the_oracle) {
     for (const int count : {all.axes, all.far, all.separate, all.collides}) EXPECT_GT(count, 0);
 }
 
-using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
-                                               boost::multiprecision::et_off>;
-
-/// The exact position of a point at a time, relative to that of the body's centre.
-std::array<rational, 3> position_at(const body_motion& motion, const point& rest,
-                                    const rational& t) {
-    const std::array<rational, 3> x{rest.x, rest.y, rest.z};
-    const auto at = [&](double a, double b) { return (1 - t) * rational(a) + t * rational(b); };
-    const auto moved = [&](const auto& row, const point& c, double p0, double p1,
-                           const rational& w) {
-        return (row[0] * (x[0] - rational(c.x)) + row[1] * (x[1] - rational(c.y)) +
-                row[2] * (x[2] - rational(c.z))) /
-                   w +
-               at(p0, p1);
-    };
-    const auto all = [&](const auto& matrix, const auto& m, const point& c, const rational& w) {
-        return std::array{moved(matrix[0], c, m.p0.x, m.p1.x, w),
-                          moved(matrix[1], c, m.p0.y, m.p1.y, w),
-                          moved(matrix[2], c, m.p0.z, m.p1.z, w)};
-    };
-    if (const auto* m = std::get_if<rigid_motion>(&motion)) {
-        const auto r =
-            ccd::detail::rotation_of<rational>({at(m->q0.w, m->q1.w), at(m->q0.x, m->q1.x),
-                                                at(m->q0.y, m->q1.y), at(m->q0.z, m->q1.z)});
-        return all(r.matrix, *m, m->centre, r.weight);
-    }
-    const auto* m = std::get_if<affine_motion>(&motion);
-    if (m == nullptr) return x;
-    std::array<std::array<rational, 3>, 3> a;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) a[i][j] = at(m->a0[i][j], m->a1[i][j]);
-    return all(a, *m, {}, 1);
-}
+using support::rational;
 
 /// Checks the bound of ccd/contact/turning/chords.cpp at a time, as a share of the interval between
 /// two times. Returns the bound divided by the distance of the chord, or 0 if the bound is

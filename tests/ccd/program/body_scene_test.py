@@ -12,7 +12,8 @@ from view_test import Page
 
 # A quarter of a turn about z: the tip (5, 0, 0) is at (3, 4, 0) at t = 1/2.
 QUARTER = [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0, 1]]
-HEADING = "step,body_a,body_b,time,low,high,touching_at_start,vertex_face,edge_edge,vertex_edge,vertex_vertex"
+HEADING = ("step,body_a,body_b,time,low,high,touching_at_start,crossing_at_start,vertex_face,edge_edge,vertex_edge,"
+           "vertex_vertex")
 
 
 class Scenes(ProgramTest):
@@ -38,7 +39,7 @@ class Bodies(Scenes):
         scene, table, pairs = self.tip_and_wall(times=[2, 4]), self.directory / "out.csv", self.directory / "out.pairs"
         step, = self.decided(scene, "--csv", table, "--pairs", pairs)
         contact = {"step": 0, "body_a": "tip", "body_b": "wall", "low": 0.5, "high": 0.5, "touching_at_start": 0,
-                   "vertex_face": 1, "edge_edge": 0, "vertex_edge": 0, "vertex_vertex": 0}
+                   "crossing_at_start": 0, "vertex_face": 1, "edge_edge": 0, "vertex_edge": 0, "vertex_vertex": 0}
         time = step["contacts"][0].pop("time")
         self.assertTrue(2.9999999 < time <= 3)
         self.assertEqual(step, {"step": 0, "from": 2, "to": 4, "body_pairs": 1, "candidates": {
@@ -56,6 +57,17 @@ class Bodies(Scenes):
         lines = done.stdout.splitlines()
         self.assertEqual(lines[1].split()[:3], ["1", "tip", "wall"])
         self.assertEqual(lines[-1], "2 of 3 steps are free of contact")
+
+    def test_edges_that_cross_faces_at_the_start(self):
+        # A rod on the x axis goes through the wall while both move.
+        scene = self.scene({"mesh": "rod.obj", "poses": [[1.5, 0, 0, 1, 0, 0, 0], [1.5, 1, 0, 1, 0, 0, 0]]},
+                           {"mesh": "wall.obj", "poses": [[0, 0, 0, 1, 0, 0, 0], [0, 1, 0, 1, 0, 0, 0]]})
+        pairs = self.directory / "out.pairs"
+        contact, = self.decided(scene, "--pairs", pairs)[0]["contacts"]
+        self.assertEqual((contact["low"], contact["high"], contact["touching_at_start"], contact["crossing_at_start"],
+                          contact["edge_edge"]), (0, 0, 0, 1, 0))
+        self.assertEqual(pairs.read_text(), "0,ef,0,1,2,3,4\n")
+        self.assertEqual(self.good("bodies", scene, "--no-check-start"), "1 of 1 steps are free of contact\n")
 
     def test_a_part_of_the_steps(self):
         scene = self.tip_and_wall([QUARTER[0], *QUARTER])
