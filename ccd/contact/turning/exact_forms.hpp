@@ -146,6 +146,13 @@ time_polynomial y_of_bodies(std::span<const body_point> points) {
     return forms_of(exact.q).y()[0];
 }
 
+/// The sign of Y at t = 0. Precondition: has_two_bodies.
+template <kind K>
+errbound::sign_type exact_sign_at_start(std::span<const body_point> points) {
+    const time_polynomial y = y_of_bodies<K>(points);
+    return y.is_zero() ? errbound::sign_type::zero : sign_of(y.coefficients().front());
+}
+
 /// The bracket of the contact in a touching interval, if fixed width suffices.
 template <kind K>
 std::optional<time_bracket> bracket_in_fixed_width(std::span<const body_point> points,

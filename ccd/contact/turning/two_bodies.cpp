@@ -106,41 +106,65 @@ bounded_position difference(const bounded_position& to, const bounded_position& 
     return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
 }
 
-/// The sign of Y at t = 0: of the volume of the points. `starts` are their positions.
+/// The sign of Y at t = 0, which is the volume of the points, from their positions.
 template <kind K>
-errbound::sign_type sign_at_start(const std::array<body_point, 4>& points,
-                                  const std::array<const bounded_position*, 4>& starts) {
-    const auto [p, q, r, s] = starts;
-    const auto volume =
-        K == kind::vertex_face
-            ? dot(cross(difference(*r, *q), difference(*s, *q)), difference(*p, *q))
-            : dot(cross(difference(*q, *p), difference(*s, *r)), difference(*r, *p));
-    if (const auto sign = sign_of(volume); certain(sign)) return sign;
-    const time_polynomial y = y_of_bodies<K>(points);
-    return y.is_zero() ? errbound::sign_type::zero : sign_of(y.coefficients().front());
+errbound::sign_type sign_at_start(const std::array<bounded_position, 4>& at) {
+    const auto& [p, q, r, s] = at;
+    return K == kind::vertex_face
+               ? sign_of(dot(cross(difference(r, q), difference(s, q)), difference(p, q)))
+               : sign_of(dot(cross(difference(q, p), difference(s, r)), difference(r, p)));
+}
+
+/// True if a line certainly separates the projections of an edge and a face along an axis. This
+/// decides most pairs in one plane.
+bool is_beside(const std::array<bounded_position, 2>& e, const std::array<bounded_position, 3>& f) {
+    using enum errbound::sign_type;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto side = [&](const bounded_position& a, const bounded_position& b,
+                              const bounded_position& c) {
+            const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+            return sign_of((b[x] - a[x]) * (c[y] - a[y]) - (b[y] - a[y]) * (c[x] - a[x]));
+        };
+        const auto of_edge = side(e[0], e[1], f[0]);
+        if ((of_edge == positive || of_edge == negative) && side(e[0], e[1], f[1]) == of_edge &&
+            side(e[0], e[1], f[2]) == of_edge)
+            return true;
+        const auto of_face = side(f[0], f[1], f[2]);
+        if (of_face != positive && of_face != negative) continue;
+        for (std::size_t i = 0; i < 3; ++i)
+            if (side(f[i], f[(i + 1) % 3], e[0]) == -of_face &&
+                side(f[i], f[(i + 1) % 3], e[1]) == -of_face)
+                return true;
+    }
+    return false;
 }
 
 }  // namespace
 
 bool crosses_at_start(const std::array<body_point, 2>& edge,
                       const std::array<body_point, 3>& face) {
-    const std::array ends{start_of(edge[0]), start_of(edge[1])};
-    const std::array corners{start_of(face[0]), start_of(face[1]), start_of(face[2])};
-    const auto side_of_end = [&](std::size_t i) {
-        return sign_at_start<kind::vertex_face>(
-            {edge[i], face[0], face[1], face[2]},
-            {&ends[i], corners.data(), &corners[1], &corners[2]});
+    const auto [e0, e1] = edge;
+    const auto [f0, f1, f2] = face;
+    const std::array<std::array<body_point, 4>, 2> ends{{{e0, f0, f1, f2}, {e1, f0, f1, f2}}};
+    const std::array<std::array<body_point, 4>, 3> borders{
+        {{e0, e1, f0, f1}, {e0, e1, f1, f2}, {e0, e1, f2, f0}}};
+    const auto p0 = start_of(e0), p1 = start_of(e1), q0 = start_of(f0), q1 = start_of(f1),
+               q2 = start_of(f2);
+    constexpr kind vf = kind::vertex_face, ee = kind::edge_edge;
+    std::array side{sign_at_start<vf>({p0, q0, q1, q2}), sign_at_start<vf>({p1, q0, q1, q2})};
+    std::array turn{sign_at_start<ee>({p0, p1, q0, q1}), sign_at_start<ee>({p0, p1, q1, q2}),
+                    sign_at_start<ee>({p0, p1, q2, q0})};
+    // The ends are on different sides, and the edge passes all borders on one side.
+    const auto may_cross = [&] {
+        return possibly_negative(side[0] * side[1]) && possibly_positive(turn[0] * turn[1]) &&
+               possibly_positive(turn[1] * turn[2]) && possibly_positive(turn[0] * turn[2]);
     };
-    const auto side_of_border = [&](std::size_t i) {
-        const std::size_t j = (i + 1) % 3;
-        return sign_at_start<kind::edge_edge>({edge[0], edge[1], face[i], face[j]},
-                                              {ends.data(), &ends[1], &corners[i], &corners[j]});
-    };
-    constexpr auto none = errbound::sign_type::zero;
-    const auto side = side_of_end(0);
-    if (side == none || side_of_end(1) != -side) return false;
-    const auto turn = side_of_border(0);
-    return turn != none && side_of_border(1) == turn && side_of_border(2) == turn;
+    if (!may_cross() || is_beside({p0, p1}, {q0, q1, q2})) return false;
+    for (std::size_t i = 0; i < 2 && may_cross(); ++i)
+        if (!certain(side[i])) side[i] = exact_sign_at_start<vf>(ends[i]);
+    for (std::size_t i = 0; i < 3 && may_cross(); ++i)
+        if (!certain(turn[i])) turn[i] = exact_sign_at_start<ee>(borders[i]);
+    return may_cross();
 }
 
 template <curve_query Query>
