@@ -201,8 +201,8 @@ struct exact_memory {
           second(from.take<std::uint32_t>(queue_items(candidates))),
           left(from.take<std::uint32_t>(candidates)) {}
 
-    /// The capacity of the first two queues. Each has room for at least one query, for finish_left
-    /// (ccd/cuda/pairs.hpp).
+    /// The capacity of the first two queues, in indices: at least 64, since finish_left
+    /// (ccd/cuda/pairs.hpp) uses their memory for queries of 192 bytes.
     static constexpr std::size_t queue_items(std::size_t candidates) {
         return candidates < 64 ? 64 : candidates;
     }

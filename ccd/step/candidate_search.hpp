@@ -1,4 +1,5 @@
-// The search for candidates: pairs that share no vertex and whose swept boxes touch.
+// The search for candidates: pairs whose swept boxes touch and that, except adjacent rods, share no
+// vertex.
 #pragma once
 
 #include <array>
@@ -59,9 +60,9 @@ struct wanted_candidates {
     bool close = false;
     /// The search may omit pairs that do not meet until this time.
     double t_max = 1;
-    /// For t_max < 1: also pairs that may meet on straight ways to the rounded positions of
-    /// `between` (ccd/step/advance/advancing.hpp). All vertices have the same fraction, up to
-    /// t_max.
+    /// For t_max < 1: also pairs that may meet on straight ways to the rounded positions that
+    /// `between` (ccd/step/advance/advancing.hpp) returns for one fraction, at most t_max, of all
+    /// vertices.
     bool spare = false;
     /// Only some of the close pairs; none if they cannot be found in floats.
     bool sample = false;
@@ -74,11 +75,10 @@ struct wanted_candidates {
 using resting_visitor =
     std::function<void(std::span<const face> elements, std::span<const element_pair> pairs)>;
 
-/// The search in one mesh. Keeps its working memory: 70 KB a thread, and about these numbers of
-/// bytes. Faces and edges share theirs: only the larger of their totals counts. With
-/// wanted_candidates::close, edges are searched in pieces, which take at most the faces' total or
-/// half of the edges' total, whichever is more. While few vertices are active, elements near them
-/// take 110 bytes more.
+/// The search in one mesh. Keeps its working memory: 70 KB a thread, and about the bytes below.
+/// Faces and edges use the same memory one after the other: of their two totals, the larger counts.
+/// With wanted_candidates::close, half of the edges' total counts, as edges are then searched in
+/// pieces. While few vertices are active, elements near them take 110 bytes more.
 ///
 ///                                    a face   an edge   a vertex
 ///     in floats                          40        44         18
@@ -116,9 +116,9 @@ class candidate_search {
 
     /// Visits each pair of resting_elements() without a common vertex once, unless an axis
     /// separates the two at t = 0. If `one_suffices` is true, pairs that probably intersect come
-    /// first, and may come again. Does not apply the filter except skip_unused. `of_last_find` is
-    /// only for the positions and options of the last find(); otherwise positions at t = 1 must be
-    /// those at t = 0.
+    /// first, and may come again. The only part of options.filter that it applies is skip_unused.
+    /// `of_last_find` is only for the positions and options of the last find(); otherwise positions
+    /// at t = 1 must be those at t = 0.
     void find_at_start(const batch_positions& positions, const step_options& options,
                        const resting_visitor& visit, trees from, bool one_suffices);
 

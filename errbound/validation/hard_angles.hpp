@@ -11,9 +11,10 @@
 namespace errbound::validation {
 
 /// Positive angles m·2^unit below 2^(exponent + 1), unit = exponent + 1 − p, for T of precision p.
-/// m is a denominator q_k of the continued fraction of 2^unit·2/π, 2q_k, or one of these plus
-/// q_(k−1): no integer below q_(k+1) has a product nearer to an integer than q_k. Only q_k >=
-/// 2^(p−8) are used. Precondition: exponent >= 0. Cost: about 100 µs for double.
+/// Let x = 2^unit·2/π, and let q_k be the denominators of its continued fraction. m is q_k, 2q_k,
+/// q_k + q_(k−1) or 2q_k + q_(k−1), for q_k >= 2^(p−8). No positive n below q_(k+1) gives an n·x
+/// nearer to an integer than n = q_k does. Precondition: exponent >= 0. Cost: about 100 µs for
+/// double.
 template <class T>
 std::vector<T> hard_angles(int exponent) {
     constexpr int p = number_traits<T>::digits;

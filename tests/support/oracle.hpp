@@ -1,5 +1,5 @@
-// The oracle: a second exact decision of every query. It shares only the query types with the
-// library, and tests compare the library with it.
+// The oracle: a second exact decision of every query. It shares only the types of queries, and
+// access to their points, with the library. Tests compare the library with it.
 #pragma once
 
 #include <array>
@@ -13,9 +13,8 @@
 
 namespace oracle {
 
-/// Enables early exits; tests of the shortcuts turn them off. One is disjoint swept boxes. For
-/// distances, the other tests only instants at which the distance of some nearest points can equal
-/// the given one.
+/// There are two shortcuts, which their tests turn off. Features with disjoint swept boxes are
+/// apart. `within` examines only the instants at which the distance can equal d1 + d2.
 enum class shortcuts { on, off };
 
 /// Times t with low <= t <= high, without an end that is marked as excluded. Precondition: 0 <= low

@@ -16,8 +16,8 @@ template <kind K>
 first_time first_within_of_bodies(std::span<const body_point> points, separation d, double t_max,
                                   answer wanted);
 
-/// True if, at t = 0, the ends of the edge are on different sides of the face's plane and the
-/// inside of the edge meets the inside of the face. Exact. Preconditions: the points of each have
+/// True if the inside of the edge goes through the inside of the face at t = 0: the ends of the
+/// edge are on different sides of the face's plane. Exact. Preconditions: the points of each have
 /// one prepared, valid motion.
 bool crosses_at_start(const std::array<body_point, 2>& edge, const std::array<body_point, 3>& face);
 
