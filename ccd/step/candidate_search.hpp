@@ -39,9 +39,9 @@ class ordered_elements {
     const std::array<vertex_index, N>& operator[](std::size_t i) const { return elements_[i]; }
     operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
-    /// Calls build(), and sort(elements) before it (or before another build()) if their order is
-    /// not good. Pass whole_way = false if t_max < 1: the leaves of such a tree do not show if the
-    /// order is good for the whole step.
+    /// Calls build(), after sort(elements) if they have no order yet. If long leaves show that the
+    /// order is no longer good, calls sort(elements) and build() again. Pass whole_way = false if
+    /// t_max < 1: the leaves of such a tree do not show if the order is good for the whole step.
     template <class Real, class Tree, class Sort, class Build>
     void build_tree(const Tree& tree, bool whole_way, const Sort& sort, const Build& build);
     void forget_order() { ordered_ = false; }
@@ -66,8 +66,9 @@ struct wanted_candidates {
     bool spare = false;
     /// Only some of the close pairs; none if they cannot be found in floats.
     bool sample = false;
-    /// Positions with a list of active vertices, or null. Close pairs without an active vertex are
-    /// skipped if few elements have one: see candidate_search::skipped_rest().
+    /// Positions with a list of active vertices, those that move in this step or did recently, or
+    /// null. Close pairs without an active vertex are skipped if few elements have one: see
+    /// candidate_search::skipped_rest().
     const kept_positions* kept = nullptr;
 };
 
@@ -155,8 +156,8 @@ class candidate_search {
         extents_tree first, second;
     };
 
-    /// Returns a function that sorts elements along the vertices' curve. Its cells are about as
-    /// large as the elements of `sample`.
+    /// Returns a function that sorts elements along a Hilbert curve (ccd/step/vertex_order.hpp).
+    /// The curve's cells are about as large as the elements of `sample`.
     template <class Real, std::size_t N>
     auto sorting(const swept_boxes& boxes, const ordered_elements<N>& sample);
     template <kind K, class First, class Second>

@@ -117,8 +117,8 @@ class vertex_groups {
         return any;
     }
 
-    /// Shortens by 2^-50 at first, then by more up to 2^-8, which leaves more than 0.99 after
-    /// `close` times; then by 1/2, 1/4, 1/16 and so on, and at last to 0.
+    /// Takes away 2^-50 of the fraction at first, then more, up to 2^-8; after `close` times more
+    /// than 0.99 is left. Then multiplies it by 1/2, 1/4, 1/16 and so on, and at last sets it to 0.
     static void shorten(group& g) {
         const int times = g.shortened++;
         if (times < close)

@@ -71,7 +71,7 @@ constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const 
             height(a, ax * ax + ay * ay + az * az) * bcd);
 }
 /// All sets of K of the N rows, numbered by i. rows_and_others.first[i][j] is the j-th row of set
-/// i; second[i][j] is the number of this set without that row, among the sets of K − 1 rows.
+/// i; second[i][j] is the index of set i without that row among the sets of K − 1 rows.
 template <std::size_t N, std::size_t K>
 struct row_sets {
     static constexpr auto all = []() {

@@ -4,11 +4,10 @@
 //   const ccd::adapters::exact_narrow_phase exact(0.8, 1e-4);
 //   ipc::compute_collision_free_stepsize(mesh, before, after, min_distance, nullptr, exact);
 //
-// Decisions are exact, without tolerance or limit of iterations, and thread-safe. Coordinates
-// and min_distance >= 0 must be finite, and tmax no NaN; otherwise the answer is true with `toi` 0.
-// Cost: that
-// of time_of_impact (ccd/contact.hpp). With a distance or a gap it is that of time_within, but far
-// less if the features stay farther apart than these until tmax.
+// Decisions are exact, without tolerance or limit of iterations, and thread-safe. Coordinates and
+// min_distance >= 0 must be finite, and tmax neither NaN nor -inf; otherwise the answer is true
+// with `toi` 0. Cost: that of time_of_impact (ccd/contact.hpp). With a distance or a gap it is that
+// of time_within, but far less if the features stay farther apart than these until tmax.
 #pragma once
 
 #include <cassert>
@@ -56,10 +55,10 @@ Position first_parameter(bool (Interface::*)(Position, Rest...) const);
 /// conservative_rescaling below 1. The distance tested is then min_distance plus a gap: the
 /// fraction 1 - conservative_rescaling of the distance above min_distance at the start, at most
 /// max_gap. The gap remains at every time up to `toi`, and all features that get nearer are
-/// reported. If no gap is left after rounding, min_distance is tested, and the time is multiplied
-/// by conservative_rescaling. `toi` is 0 only for invalid input, for features within min_distance
-/// at the start, and for times below the least double above 0. Degenerate triangles and edges are
-/// the segments and points that they are.
+/// reported. If rounding or an estimate leaves no gap, min_distance is tested, and the time is
+/// multiplied by conservative_rescaling. `toi` is 0 only for invalid input, for features within
+/// min_distance at the start, and for times below the least double above 0. Degenerate triangles
+/// and edges are the segments and points that they are.
 class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
     using position =
         decltype(detail::first_parameter(&ipc::NarrowPhaseCCD::point_point_ccd));  // 2D or 3D

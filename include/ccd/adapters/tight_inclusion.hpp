@@ -72,14 +72,14 @@ bool answer(const Query& query, double ms, double t_max, bool no_zero_toi, T& to
 /// ms = 0: true if and only if they touch in [0, t_max]. `toi` is the last T not after the first
 /// contact. ms > 0: true if and only if their Euclidean distance gets down to sqrt(3) ms, rounded
 /// up by less than two units in the last place. The ball of this radius contains the box of
-/// Tight-Inclusion, so `false` certifies the same as there. Pairs up to 1.74 times as far apart
-/// along an axis are reported; for a Euclidean distance call ccd::time_within. `toi` is infinite if
-/// the answer is false.
+/// Tight-Inclusion, so `false` certifies the same as there. So pairs up to 1.74 ms apart along an
+/// axis are reported; for a Euclidean distance call ccd::time_within. `toi` is infinite if the
+/// answer is false.
 ///
-/// err, tolerance, max_itr and ccd_method are ignored, since nothing is rounded; output_tolerance
+/// err, tolerance, max_itr and ccd_method are ignored, since decisions are exact; output_tolerance
 /// is set to tolerance. With no_zero_toi, a pair within sqrt(3) ms at the start is tested for
-/// contact only. Then `toi` is 0 only if the pair touches at the start, or before the least
-/// positive T.
+/// contact only. Then `toi` is 0 only for invalid input, for a pair that touches at
+/// the start, and for times below the least positive T.
 template <class T>
 requires std::same_as<T, double> || std::same_as<T, float>
 bool vertexFaceCCD(

@@ -18,7 +18,8 @@
 namespace ccd {
 
 /// x(t) = R(t) (X − centre) + p(t). R(t) is the rotation of from.q, then the turn by `angle` t
-/// about `axis`. p(t) is linear from from.p to `end`. These are turn's arguments, without rounding.
+/// about `axis`. p(t) is linear from from.p to `end`. The members are the arguments of `turn`
+/// (ccd/bodies/motion.hpp), but the motion is not rounded.
 struct constant_turn {
     pose from;
     point<double> axis{0, 0, 1};  ///< of any length but 0

@@ -109,8 +109,9 @@ namespace detail {
 template <>
 inline constexpr bool is_motion<body_point> = true;
 
-/// A motion between two times, near motion along lines. A point X moves within error_of(y) of the
-/// line from ends_of(y).t0 to ends_of(y).t1, at constant speed, for y = X − centre.
+/// Approximates a motion between two times by a chord for each point. Let y = X − centre. At every
+/// time, X is within error_of(|y|₁) of the point that moves at constant speed from ends_of(y).t0 to
+/// ends_of(y).t1.
 struct motion_chords {
     enum class motion_kind { rests, keeps_direction, turns };
 
@@ -122,7 +123,7 @@ struct motion_chords {
             x[k] = ((column[0][k] * y.x + column[1][k] * y.y) + column[2][k] * y.z) + shift[k];
         return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
     }
-    /// An infinite or undefined bound holds for everything. `length` is |y.x| + |y.y| + |y.z|.
+    /// If the bound is infinite or NaN, it bounds nothing. `length` is |y.x| + |y.y| + |y.z|.
     double error_of(double length) const { return error_per_length * length + error; }
 
     /// The columns of A(t) or R(t), and the translation: three numbers for each of the two times.
@@ -134,7 +135,8 @@ struct motion_chords {
     bool is_affine = false;    ///< not a rigid body
     double largest_entry = 1;  ///< bounds the entries of `column`
     /// A body that turns: its quaternions, scaled by a power of two, w x y z at both times. The
-    /// largest coordinate of those at t = 0 and 1 is in [1/2, 1]. Others may have underflowed.
+    /// scale makes the largest coordinate of the motion's q0 and q1 at least 1/2 and at most 1.
+    /// Smaller coordinates may have underflowed.
     std::array<std::array<double, 4>, 2> q{};
 
   private:
@@ -149,7 +151,7 @@ struct motion_chords {
 }  // namespace detail
 
 /// A motion with numbers that each query needs, computed once. Queries of its points give the same
-/// results as those of {&motion, rest}. They take a third to half of the time if boxes or axes
+/// results as those of {&motion, rest}. They take a quarter to half of the time if boxes or axes
 /// decide.
 class prepared_motion {
   public:

@@ -72,7 +72,7 @@ struct body_advance {
     std::vector<edge_face_pair> crossing_at_start;  ///< as in body_step_result
 };
 
-/// Returns the motion until t = fraction, with a rounded end, for another step.
+/// Returns the motion from the same start to the rounded pose at t = fraction, at t = 1.
 body_motion until(const body_motion& motion, double fraction);
 
 /// Bodies with meshes in their own coordinates. Keeps a tree of each at rest, whose nodes are moved
@@ -118,7 +118,7 @@ class body_steps {
     /// Returns the longest common step that was found to be free. Its fraction is the time of the
     /// first contact, or a few units in the last place less, times `conservative`. It is less, at
     /// worst 0, if the rounded ends touch. Throws as run(). Cost: one step if the whole way is
-    /// free, else usually two, at most 60.
+    /// free, else usually two, at most 30.
     body_advance advance(std::span<const body_motion> motions,
                          const body_advance_options& options = {});
 

@@ -65,8 +65,8 @@ auto system_function(const T&... x) {
 
 /// At least |v − f|, before enlarged(), for an error of k units in the last place of f. Such a unit
 /// is at most ε|f| + η, and |f| <= (|v| + kη)/(1 − kε), so |v − f| <= kε|v|/(1 − kε) + kη + k²εη/(1
-/// − kε). Here 1/(1 − kε) < 1 + 2kε and k²ε < 1/8. Another 2kε >= u covers rounding k to T, another
-/// η the product's underflow.
+/// − kε). Here 1/(1 − kε) < 1 + 2kε and k²ε <= 1/8. Another 2kε >= u covers rounding k to T,
+/// another η the product's underflow.
 template <elementary_function F, class T>
 T error_of_function(const T& v) {
     using traits = number_traits<T>;

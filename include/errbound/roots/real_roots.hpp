@@ -268,7 +268,8 @@ class real_roots {
         return from < to ? std::pair{from, to} : std::pair{to, from};
     }
 
-    /// Inserts the root at 0, if any; no other interval may contain it.
+    /// Inserts the root at 0, if any, after moving ends of other intervals away from 0.
+    /// Precondition: 0 is inside no other interval.
     void add_zero() {
         if (zeros_ == 0) return;
         const point zero;

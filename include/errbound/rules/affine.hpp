@@ -5,7 +5,7 @@
 // Notation: docs/notation.md. The exact value is v + Σ cᵢεᵢ + ρ, with a noise symbol εᵢ per source,
 // |εᵢ| <= 1, and |ρ| <= rest. The rest is 0 except in constant expressions and device code, which
 // count no sources. One counter numbers the sources of all threads of a program; enter numbers of
-// another process by `within`. sqrt and fma keep sources; the results of other functions are new
+// another process by `within`. sqrt and fma keep sources; results of elementary functions are new
 // sources. References: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37).
 // Proof, of whole computations: proofs/rules/IeeeAffineFunctions.v, computed_known, gives_known.
 #pragma once

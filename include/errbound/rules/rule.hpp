@@ -195,12 +195,15 @@ struct rule_check {
 //   square_root(result, a)                  the bound of the rounded √a, unknown if a may be
 //                                           negative; default: from the error of a
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
-//   keeps_first_order                       true if errors keep signs or sources: √a and ab + c
-//                                           then use the rule's operations, including divide
+//   keeps_first_order                       true if bounds keep signs or sources of errors. √a and
+//                                           ab + c, without square_root or fused, are then also
+//                                           computed by the rule's operations, including divide;
+//                                           the smaller bound counts
 //   is_crowded(bound)                       with keeps_first_order: true if the bound has no room
 //                                           for another source; √a then becomes one new source.
-//   displacement(value)                     the bound of a number whose exact value is 0; with it,
-//                                           numbers of 8 and 16 bits have bounds in float
+//   displacement(value)                     the bound of a number with this value whose exact
+//                                           value is 0. Numbers of 8 and 16 bits then have bounds
+//                                           in float: tracked adds the error of rounding the result
 //   template <class T> class dot_bound      bounds s = 0, s += ab, ...: a call of
 //                                           add_product(ab, s before, s after, a, b) per step,
 //                                           then finished(s), which returns bound<T>

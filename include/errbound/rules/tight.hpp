@@ -135,7 +135,7 @@ struct tight : detail::absolute_bound {
                                        T(traits::epsilon() * (1 + traits::epsilon())));
     }
     // Covers six roundings in any direction: (1 + 8ε)(1 − ε)^6 > 1 for p >= 5 (p >= 3 to nearest).
-    // For smaller p, errbound/validation/tiny_check.hpp tests every case.
+    // The library's types with fewer bits only round to nearest.
     template <class T>
     static constexpr T inflated(const T& bound) {
         return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));

@@ -1,4 +1,5 @@
-// Checks a bound rule in every case of formats of 6 to 8 bits.
+// Checks a bound rule in formats of 6 to 8 bits: every pair of numbers, and in 6 bits every pair of
+// bounds.
 #pragma once
 
 #include <algorithm>
@@ -205,7 +206,8 @@ class tiny_checker {
                 {value, off}};
     }
 
-    /// The flag is cleared after each result is compared, that is before each operation.
+    /// Clears the flag that an overflow went unnoticed after each comparison, before the next
+    /// operation.
     template <class Check>
     void check_by(const Check& check, const number& r, tiny_account& how, const char* operation) {
         if (!format::overflowed_unnoticed()) {  // the one thing that a rule may miss

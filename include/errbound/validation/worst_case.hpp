@@ -43,7 +43,7 @@ struct worst_case_options {
     double seconds = 10;        ///< for the bound; once more for the relative one
     std::size_t boxes = 1'000'000;
     std::size_t samples = 200'000;  ///< inputs that the search for the largest error tries
-    std::size_t measured = 0;       ///< random inputs of which MPFR measures each error, too
+    std::size_t measured = 0;       ///< further random inputs at which MPFR measures the error
     std::uint64_t seed = 1;
     bool relative = false;  ///< bound the relative error, too
     double function_units =
@@ -56,8 +56,9 @@ struct worst_case_options {
 struct rule_bound {
     std::string rule;
     double largest = 0;  ///< error() of the result at an input found by search; infinite: no bound
-    std::size_t broken =
-        0;  ///< of the inputs with the largest bounds: true error larger, or wrong sign
+    /// The number of inputs, of those with the largest bounds or errors, whose true error exceeds
+    /// the bound, or whose certain sign is wrong.
+    std::size_t broken = 0;
 };
 
 struct worst_case_result {
