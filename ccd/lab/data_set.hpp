@@ -101,7 +101,7 @@ struct queries_with_truth {
 struct data_set {
     std::string name;
     std::string fingerprint;  ///< of its files' contents
-    /// "scene": all candidates of a step of a mesh; "stored": files; "made": the program itself.
+    /// "scene": all candidates of a step of a mesh; "stored": files; "made", "stress": generated.
     std::string_view origin = "stored";
     mesh before, after;
     by_stored_kind<queries_with_truth> queries;
@@ -118,12 +118,12 @@ struct data_set {
 };
 using loaded_data = std::unique_ptr<data_set>;
 
-///
-/// Stored queries: from their file (io::read_queries), otherwise by `exact`. A scene: all pairs
-/// that share no vertex and whose swept boxes touch, sorted, their truth by `exact`. Truth that is
-/// stored next to it, as in the scalable benchmark, is compared with that: ../boxes/*vf.json and
-/// *ee.json name pairs of elements, ../mma_bool/NAME_mma_bool.json which of them collide; all
-/// others do not. Memory: some 20 bytes a query of a scene, 200 of a stored one. Throws
+/// Loads a data set. The truth of stored queries is that of their file (io::read_queries), or by
+/// `exact` if it has none. The queries of a scene are all pairs that share no vertex and whose
+/// swept boxes touch, sorted, with truth by `exact`. If the scene's folder is in the layout of the
+/// public benchmark, that truth is compared with the stored one: ../boxes/*vf.json and *ee.json
+/// name pairs of elements, ../mma_bool/NAME_mma_bool.json which of them collide; all others do not.
+/// Memory: some 20 bytes a query of a scene, 200 of a stored one. Throws
 /// errbound::support::file_error.
 loaded_data load(const data_source& source, int threads);
 
@@ -131,7 +131,8 @@ loaded_data load(const data_source& source, int threads);
 /// last place; small integers, most of them degenerate.
 std::vector<loaded_data> made_data(int threads);
 
-/// Makes `each` queries for each value of the knob, fewer where the family is thinned.
+/// Makes `each` queries of each stored kind for each value of the knob, fewer where the family is
+/// thinned.
 loaded_data data_of(const family& from, std::size_t each, int threads);
 
 }  // namespace ccd::lab

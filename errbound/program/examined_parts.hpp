@@ -27,7 +27,8 @@ struct result_files {
     }
 };
 
-/// The columns of --csv without `part`. The column `clamped` names the clamped quantiles.
+/// The columns of --csv without `part`. The column `clamped` names the quantiles that are only
+/// bounds (distribution::is_clamped).
 support::row row_of(const tightness& t);
 
 /// Examines the parts, writes the requested files, then prints tables. Returns broken_promise if

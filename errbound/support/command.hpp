@@ -70,8 +70,8 @@ class command {
     CLI::App& line_;
 };
 
-/// Returns body(), or 0 after printing --help or --version, unless `prints` is false. Throws
-/// usage_error.
+/// Returns body(). For --help and --version returns 0, after printing the text if `prints` is true.
+/// Throws usage_error.
 int parse_and_run(CLI::App& app, int argc, char** argv, const std::function<int()>& body,
                   bool prints = true);
 

@@ -33,8 +33,9 @@ struct advance_options {
     pair_distances distances = {};
     /// Pairs that start nearer than (1 + 2^-10) times their distance may come nearer,
     /// but not below this share of their distance at the start: in [0, 1). So pairs that rest at
-    /// their distance can slide on. With 0, pairs that start within their distance must only not
-    /// touch. All others keep their whole distance, so a pair just above it stops its group.
+    /// their distance can slide on. With 0, pairs that start within their distance may come
+    /// arbitrarily near, but do not touch. All others keep their whole distance, so a pair just
+    /// above it stops its group.
     double keep = 0.1;
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
@@ -94,7 +95,7 @@ advance_result advance(const mesh& before, const mesh& after, const advance_opti
 /// are free in both forms: product and sum rounded, and fused, std::fma(alpha, p, x), for each
 /// coordinate. first_contact is on the way from x to x + p, or to a half of p, a quarter, ... if
 /// that overflows. alpha is within a few ulps of `conservative` times the time of that contact,
-/// less only if rounding causes contacts.
+/// times 1/2, 1/4, ... after an overflow, and less only if rounding causes contacts.
 ///
 /// Throws as advance, and std::invalid_argument with groups or each_vertex, or if a displacement is
 /// not finite. Cost: as advance; one more step if fused positions differ.

@@ -162,7 +162,8 @@ constexpr std::string_view name(contact_motion m) {
     return names[static_cast<std::size_t>(m)];
 }
 
-/// Returns the motion of the result of contact_at(query, time). Exact: if the normal velocity does
+/// Returns how the features move on after a contact, which is the result of contact_at or
+/// find_first_contact for this query. Exact: if the normal velocity does
 /// not decide, the signs of Y (docs/notation.md) just before and just after the bracket do. Y may
 /// be zero throughout. Then a vertex that meets an edge is judged by its side of the edge's line
 /// before and after; for features that meet inside, the result is `slides`. Cost: one comparison if

@@ -5,10 +5,10 @@
 //     if (ccd::is_free_of_intersections(mesh)) ...  // stops at the first pair
 //
 // Elements are faces, edges of no face (rods), and vertices of neither (points). Two intersect if
-// they share a point outside the vertices and edges that both have by index. Degenerate elements
-// count as the segments or points that they are. For many frames of one mesh, use
-// mesh_steps::intersections. Results do not depend on the number of threads, except which pair
-// amount::first finds. Throws std::invalid_argument for bad input.
+// they share a point that is on no common vertex or edge. Common vertices have one index; equal
+// positions do not suffice. Degenerate elements count as the segments or points that they are. For
+// many frames of one mesh, use mesh_steps::intersections. Results do not depend on the number of
+// threads, except which pair amount::first finds. Throws std::invalid_argument for bad input.
 #pragma once
 
 #include <algorithm>
@@ -156,8 +156,9 @@ struct intersection_result {
 /// the elements.
 ///
 /// Throws std::invalid_argument if an index is not below the number of vertices, or for 2^32 or
-/// more vertices, faces or edges. Also throws if a coordinate is not finite, or there is not one
-/// group or flag per vertex. Also throws if the group rule or instruction set does not exist.
+/// more vertices, faces or edges. Also throws if a coordinate is not finite, or the number of
+/// groups or flags is not that of the vertices. Also throws if the group rule or instruction set
+/// does not exist.
 ///
 /// Cost: trees over the elements, and their search. Faces around a vertex are tested together, in
 /// linear time, if they form a fan that projects along a coordinate axis without overlap;

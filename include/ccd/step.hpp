@@ -160,11 +160,12 @@ class mesh_steps {
 
     /// Returns the pairs of one step that options.method does not certify as separate.
     ///
-    /// Throws std::invalid_argument if positions are null, there is not one position, group or
-    /// pinned flag per vertex, or a coordinate is not finite. Also throws if t_max is not finite,
-    /// distances are not valid, or z is not 0 in the plane. Also throws if the method, group rule
-    /// or instruction set does not exist. Also throws if a method other than `exact` has times,
-    /// first_contact, t_max < 1 or distances, or adjacent_rods has distances.
+    /// Throws std::invalid_argument if positions are null or a coordinate is not finite. Also
+    /// throws if the number of positions, groups or pinned flags is not that of the vertices. Also
+    /// throws if t_max is not finite, distances are not valid, or z is not 0 in the plane. Also
+    /// throws if the method, group rule or instruction set does not exist. Also throws if a method
+    /// other than `exact` has times, first_contact, t_max < 1 or distances, or adjacent_rods has
+    /// distances.
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// Returns all candidates of a step, for custom narrow phases; vertices of faces keep the

@@ -2,7 +2,8 @@
 // effect on its result.
 //
 // A run is a sequence of blocks. Block b of a seed has the same questions on every machine. The
-// state of a run is therefore the seed, the first block, the number of blocks and their findings.
+// state of a run is therefore the seed, the number of questions before its first block, and the
+// findings.
 #pragma once
 
 #include <atomic>

@@ -113,11 +113,11 @@ decider unfiltered_integers();
 /// "against the reference": a row for each decider: compared, different.
 part comparison_part(decider truth, std::vector<decider> deciders);
 
-/// Queries of every family and all four kinds. All deciders must give the first decider's answer to
-/// all images of a query (tests/soak/images.hpp); each decider has its own images. The
-/// printed number of answers omits deciders that can be uncertain; their certain answers are
-/// compared, too. Tables: "family", the queries; "decided by", the
-/// stages, of deciders that report them; "decider", all answers.
+/// Queries of every family and all four kinds. The first decider decides the query itself. Each
+/// decider, the first too, decides other images of it (tests/soak/images.hpp), and must give the
+/// same answer. The printed number of answers omits deciders that can be uncertain; their certain
+/// answers are compared, too. Tables: "family", the queries; "decided by", the stages, of deciders
+/// that report them; "decider", all answers.
 part symmetry_part(std::vector<decider> deciders);
 /// exact_deciders() and the methods `tight` and `safe`, whose certain answers must be right.
 std::vector<decider> symmetric_deciders();
@@ -135,9 +135,9 @@ using stepper =
     std::function<ccd::step_result(const brute_force::two_frames&, int threads, bool counted)>;
 ccd::step_result exact_step(const brute_force::two_frames& at, int threads, bool counted);
 
-/// Small meshes of every family of queries, faces, rods and points, some repeated, and soups on a
-/// grid. Candidates and pairs of `step`, with one thread and with two, are compared with the
-/// reference on every pair.
+/// Small meshes around queries of every family, with faces, rods and points, in some of which a
+/// face is repeated. Also mixtures on a grid. Candidates and pairs of `step`, with one thread and
+/// with two, are compared with the reference on every pair.
 part mesh_part(stepper step = exact_step);
 
 struct advance_scene;
@@ -145,10 +145,10 @@ struct advance_scene;
 using advancer = std::function<ccd::advance_result(const advance_scene&, int threads)>;
 ccd::advance_result library_advance(const advance_scene& scene, int threads);
 
-/// Small meshes of every family of queries, and others with contacts a last place apart, in space
-/// and in the plane. Some have distances and groups. They are advanced with one thread, where the
-/// oracle checks every pair, and with two, with the same result. Tables: "scenes" by family, and
-/// "where", "distances", "groups".
+/// Small meshes of every family of queries, and others whose features are a few units in the last
+/// place apart. Some are in the plane, some have distances and groups. They are advanced with
+/// one thread, where the oracle checks every pair, and with two, with the same result. Tables:
+/// "scenes" by family, and "where", "distances", "groups".
 part advance_part(advancer advance = library_advance);
 
 // ---- Others ----

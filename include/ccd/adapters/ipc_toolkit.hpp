@@ -55,10 +55,10 @@ Position first_parameter(bool (Interface::*)(Position, Rest...) const);
 /// conservative_rescaling below 1. The distance tested is then min_distance plus a gap: the
 /// fraction 1 - conservative_rescaling of the distance above min_distance at the start, at most
 /// max_gap. The gap remains at every time up to `toi`, and all features that get nearer are
-/// reported. If rounding or an estimate leaves no gap, min_distance is tested, and the time is
-/// multiplied by conservative_rescaling. `toi` is 0 only for invalid input, for features within
-/// min_distance at the start, and for times below the least double above 0. Degenerate triangles
-/// and edges are the segments and points that they are.
+/// reported. The distance at the start is an estimate. If its error or rounding leaves no gap,
+/// min_distance is tested, and the time is multiplied by conservative_rescaling. `toi` is 0 only
+/// for invalid input, for features within min_distance at the start, and for times below the least
+/// double above 0. Degenerate triangles and edges are the segments and points that they are.
 class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
     using position =
         decltype(detail::first_parameter(&ipc::NarrowPhaseCCD::point_point_ccd));  // 2D or 3D

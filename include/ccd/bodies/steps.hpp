@@ -45,8 +45,8 @@ struct body_step_result {
     time_lists times;              ///< the first time of each of `pairs`
     pair_lists touching_at_start;  ///< the members of `pairs` that touch at t = 0
     /// With check_start: edges that go through the inside of another body's face at t = 0, sorted.
-    /// Surfaces of two bodies share a point at t = 0 if and only if the bodies have a pair here or
-    /// one that touches at t = 0. Exact for the poses as given, without rounding.
+    /// The surfaces of two tested bodies are apart at t = 0 if and only if the bodies have no pair
+    /// here and none that touches at t = 0. Exact for the poses as given, without rounding.
     std::vector<edge_face_pair> crossing_at_start;
     first_time first_contact;    ///< the earliest not at t = 0; `separate` if there is none
     pair_lists first_pairs;      ///< the members of `pairs` with that time
@@ -72,7 +72,8 @@ struct body_advance {
     std::vector<edge_face_pair> crossing_at_start;  ///< as in body_step_result
 };
 
-/// Returns the motion from the same start to the rounded pose at t = fraction, at t = 1.
+/// Returns a motion with the same start. Its pose at t = 1 is that of `motion` at `fraction`,
+/// rounded.
 body_motion until(const body_motion& motion, double fraction);
 
 /// Bodies with meshes in their own coordinates. Keeps a tree of each at rest, whose nodes are moved
