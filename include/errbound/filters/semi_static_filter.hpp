@@ -55,6 +55,7 @@ struct semi_static {
         constexpr T exact = 1 / number_traits<T>::unit_roundoff();
         const bool trusted = mass < exact && allowances < exact;
         if (!trusted) return number_traits<T>::infinity();
+        // Doubled: it overflows before a number of the expression does.
         const T size =
             2 * mass * power<Degree>(largest) + 2 * allowances * filtered<T, 0, 0, true>::allowance;
         return filter_constant<T>(Roundings) / 2 * size;

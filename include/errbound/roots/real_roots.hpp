@@ -247,8 +247,8 @@ class real_roots {
         }
         isolate(low, high);
     }
-    /// Both ends, ascending. A root bound replaces an infinite end. If the bound is beyond the
-    /// finite end, that end replaces it.
+    /// Both ends, ascending. A root bound replaces an infinite end. If all roots are on the other
+    /// side of the finite end, both ends are the finite one.
     std::pair<point, point> ends(const roots::filtered_part& part) {
         const auto end = [this](double x, double other) {
             if (std::isfinite(x)) return point::from(x);

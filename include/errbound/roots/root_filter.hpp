@@ -72,7 +72,7 @@ struct tracked_row {
         }
     }
     /// this[j] *= factor[j] for first <= j <= last, powers of two <= 1. Underflow changes value and
-    /// error by less than the smallest number each; the last factor covers two roundings.
+    /// error by less than the smallest number each; 1 + 4ε covers two roundings.
     void shrink(const double* factor, std::size_t first, std::size_t last) const {
         constexpr double lost = 2 * number_traits<double>::underflow_unit();
         for (std::size_t j = first; j <= last; ++j) {
@@ -95,7 +95,8 @@ struct tracked_row {
     }
 };
 
-/// Cost: at most max_halvings halvings of degree²/2 additions each; few for separated roots.
+/// Cost: on each side of 0, at most max_halvings halvings of degree²/2 additions; few for separated
+/// roots.
 template <absolute_rule Rule>
 class root_filter {
   public:
@@ -301,7 +302,8 @@ class root_filter {
 
     /// Halving separates two close roots slowly. If at most two are left, evaluates the polynomial
     /// at its extremum in doubles. If the sign differs from `outside`, the sign at both ends, each
-    /// side has one root. If the sign is uncertain, the part is undecided. Tried after 4, 8, 16,
+    /// side has one root. If the sign is uncertain or zero, the part is undecided. Tried after 4,
+    /// 8, 16,
     /// ... halvings.
     bool add_pair(double from, double to, int outside) {
         const int halvings = -std::ilogb(to - from);

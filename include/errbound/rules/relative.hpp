@@ -4,9 +4,9 @@
 // Notation: docs/notation.md; v is the computed value, x the exact one. The bound is a count k: v =
 // x·Π(1 + δᵢ)^±1 with k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter). So v and x
 // have the same sign, and |ln(v/x)| <= kw with w = −ln(1 − u); k need not be whole. Exact numbers
-// have k = 0. The error is about k·u|v|. It is infinite after an overflow, an underflow except in
-// sums, or a cancellation that leaves a result no larger than its error. It is also infinite for an
-// inexact number of value 0 (such as x − x of an inexact x), and if kw >= 7/4.
+// have k = 0. The error is about k·u|v|. It is infinite after an overflow, and for subnormal
+// results, except of sums. It is infinite if kw >= 7/4, and if cancellation leaves a result no
+// larger than its error, such as x − x of an inexact x.
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -158,7 +158,7 @@ struct relative {
     template <class T>
     static constexpr double factors_of(const T& error, const T& size) {
         using traits = number_traits<T>;
-        if (!(size > 0)) return unknown;  // 0 may be −0
+        if (!(size > 0)) return unknown;  // also for −0, where the share would be −∞
         const T share = upper<T>(T(error / size)) + traits::underflow_unit();
         if (!(share < T(1))) return unknown;
         // r >= share even if T is wider than double.

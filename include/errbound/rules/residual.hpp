@@ -4,9 +4,9 @@
 // Notation: docs/notation.md; v is the computed value, c the correction and ρ its bound, the member
 // `remainder`: |v + c − exact value| <= ρ. va, ca, ρa are those of a. δ is an operation's rounding
 // error. Exact numbers have c = ρ = 0. Sums keep ρ = 0 while c holds their error exactly. If v + c
-// = 0 and ρ = 0, the sign is certainly zero. If v is not finite, c or ρ is not either, so no sign
-// is certain. Sources: Ogita, Rump, Oishi 2005 (Accurate sum and dot product); Langlois 2001
-// (Automatic linear correction of rounding errors).
+// = 0 and ρ = 0, the sign is certainly zero. If v is not finite, at least one of c and ρ is not, so
+// no sign is certain. Sources: Ogita, Rump, Oishi 2005 (Accurate sum and dot product); Langlois
+// 2001 (Automatic linear correction of rounding errors).
 #pragma once
 
 #include <errbound/detail/sum_of_bounds.hpp>
