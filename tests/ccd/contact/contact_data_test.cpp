@@ -1,9 +1,10 @@
-// Contact data of contacts made by hand, with known features, weights, normals and velocities.
+// Contacts made by hand, with known times, features, weights, normals and velocities.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <ccd/contact.hpp>
 #include <ccd/plane.hpp>
+#include <ccd/reference.hpp>
 #include <cmath>
 
 #include "tests/ccd/contact/by_hand.hpp"
@@ -22,6 +23,15 @@ edge_edge on_x_axis(moving b0, moving b1) {
     return {still({-1, 0, 0}), still({1, 0, 0}), b0, b1};
 }
 
+/// The contact, which must be at this time, as by the reference.
+template <class Query>
+first_contact contact(const Query& query, const ccd::first_time& time) {
+    const first_contact found = ccd::find_first_contact(query);
+    EXPECT_EQ(found.time, time);
+    EXPECT_EQ(ccd::time_of_impact(query), time);
+    EXPECT_EQ(ccd::time_of_impact_reference(query), time);
+    return found;
+}
 void expect_weights(const first_contact& found, std::array<double, 4> weights) {
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_NEAR(found.weights[i], weights[i], found.weight_error) << "of point " << i;
@@ -40,36 +50,37 @@ void expect_normal(const first_contact& found, normal_source source, point n, do
 }
 
 TEST(contact_data, of_a_vertex_inside_a_face_from_either_side) {
-    const auto above = ccd::find_first_contact(over_triangle({0.25, 0.5, 1}, {0.25, 0.5, -1}));
-    EXPECT_EQ(above.time, (ccd::first_time{outcome::collides, 0.5, 0.5}));
+    const auto above = contact(over_triangle({0.25, 0.5, 1}, {0.25, 0.5, -1}), at(0.5));
     EXPECT_EQ(above.features, (meeting_features{kind::vertex_face, {0, 1, 2, 3}}));
     expect_weights(above, {1, 0.25, 0.25, 0.5});
     expect_normal(above, normal_source::cross_product, {0, 0, 1}, -2);
     EXPECT_TRUE(above.sided);
-    const auto below = ccd::find_first_contact(over_triangle({0.25, 0.5, -1}, {0.25, 0.5, 2}));
+    const auto below = contact(over_triangle({0.25, 0.5, -1}, {0.25, 0.5, 2}), at_a_third);
     expect_weights(below, {1, 0.25, 0.25, 0.5});
     expect_normal(below, normal_source::cross_product, {0, 0, -1}, -3);
     EXPECT_TRUE(below.sided);
 }
 TEST(contact_data, of_edges_that_cross_from_either_side) {
-    const auto above = ccd::find_first_contact(
-        on_x_axis(from_to({0.5, -1, 1}, {0.5, -1, -2}), from_to({0.5, 3, 1}, {0.5, 3, -2})));
+    const auto above =
+        contact(on_x_axis(from_to({0.5, -1, 1}, {0.5, -1, -2}), from_to({0.5, 3, 1}, {0.5, 3, -2})),
+                at_a_third);
     EXPECT_EQ(above.features, (meeting_features{kind::edge_edge, {0, 1, 2, 3}}));
     expect_weights(above, {0.25, 0.75, 0.75, 0.25});
     expect_normal(above, normal_source::cross_product, {0, 0, -1}, -3);  // edge a is below
     EXPECT_TRUE(above.sided);
-    const auto below = ccd::find_first_contact(
-        on_x_axis(from_to({0.5, -1, -1}, {0.5, -1, 2}), from_to({0.5, 3, -1}, {0.5, 3, 2})));
+    const auto below =
+        contact(on_x_axis(from_to({0.5, -1, -1}, {0.5, -1, 2}), from_to({0.5, 3, -1}, {0.5, 3, 2})),
+                at_a_third);
     expect_normal(below, normal_source::cross_product, {0, 0, 1}, -3);
 }
 TEST(contact_data, of_a_vertex_on_the_border_of_a_face_names_the_border) {
     // Falls onto f1 f2 sideways: the normal is the face's, not opposite to the velocity.
-    const auto edge = ccd::find_first_contact(over_triangle({0, 0.75, 1}, {0.5, 0.75, -1}));
+    const auto edge = contact(over_triangle({0, 0.75, 1}, {0.5, 0.75, -1}), at(0.5));
     EXPECT_EQ(edge.features, (meeting_features{kind::vertex_edge, {0, 2, 3}}));
     expect_weights(edge, {1, 0, 0.25, 0.75});
     EXPECT_EQ(edge.weights[1], 0);
     expect_normal(edge, normal_source::cross_product, {0, 0, 1}, -2);
-    const auto corner = ccd::find_first_contact(over_triangle({0, 1, 1}, {0, 1, -1}));
+    const auto corner = contact(over_triangle({0, 1, 1}, {0, 1, -1}), at(0.5));
     EXPECT_EQ(corner.features, (meeting_features{kind::vertex_vertex, {0, 3}}));
     expect_weights(corner, {1, 0, 0, 1});
     EXPECT_EQ(corner.weight_error, 0);
@@ -78,21 +89,20 @@ TEST(contact_data, of_a_vertex_on_the_border_of_a_face_names_the_border) {
 }
 TEST(contact_data, of_an_edge_s_end_names_the_vertex_first) {
     // b0 falls onto the middle of a.
-    const auto end = ccd::find_first_contact(
-        on_x_axis(from_to({0, 0, 1}, {0, 0, -1}), from_to({0, 2, 1}, {0, 2, -1})));
+    const auto end =
+        contact(on_x_axis(from_to({0, 0, 1}, {0, 0, -1}), from_to({0, 2, 1}, {0, 2, -1})), at(0.5));
     EXPECT_EQ(end.features, (meeting_features{kind::vertex_edge, {2, 0, 1}}));
     expect_weights(end, {0.5, 0.5, 1, 0});
     expect_normal(end, normal_source::cross_product, {0, 0, -1}, -2);
-    const auto ends = ccd::find_first_contact(
-        on_x_axis(from_to({1, 0, 1}, {1, 0, -1}), from_to({1, 2, 1}, {1, 2, -1})));
+    const auto ends =
+        contact(on_x_axis(from_to({1, 0, 1}, {1, 0, -1}), from_to({1, 2, 1}, {1, 2, -1})), at(0.5));
     EXPECT_EQ(ends.features, (meeting_features{kind::vertex_vertex, {1, 2}}));
     expect_weights(ends, {0, 1, 1, 0});
 }
 TEST(contact_data, of_a_touch_without_crossing_is_on_the_side_it_came_from) {
     // Y = 4u² with u = 2t − 1 has no second side.
-    const auto found = ccd::find_first_contact(
-        on_x_axis(from_to({0, 0, 1}, {0, -2, -1}), from_to({0, 2, -1}, {0, 0, 1})));
-    EXPECT_EQ(found.time.low, 0.5);
+    const auto found = contact(
+        on_x_axis(from_to({0, 0, 1}, {0, -2, -1}), from_to({0, 2, -1}, {0, 0, 1})), at(0.5));
     expect_weights(found, {0.5, 0.5, 0.5, 0.5});
     expect_normal(found, normal_source::cross_product, {0, 0, -1}, 0);
     EXPECT_TRUE(found.sided);
@@ -108,20 +118,19 @@ TEST(contact_data, weight_error_includes_the_rounding_of_weights) {
 }
 TEST(contact_data, at_the_start_has_no_side) {
     for (const double end : {-1.0, 1.0}) {
-        const auto found = ccd::find_first_contact(over_triangle({0.25, 0.5, 0}, {0.25, 0.5, end}));
-        EXPECT_TRUE(found.time.at_start());
+        const auto found = contact(over_triangle({0.25, 0.5, 0}, {0.25, 0.5, end}), at(0));
         expect_weights(found, {1, 0.25, 0.25, 0.5});
         expect_normal(found, normal_source::cross_product, {0, 0, 1}, end);
         EXPECT_FALSE(found.sided);
     }
 }
 TEST(contact_data, of_features_at_rest) {
-    const auto resting = ccd::find_first_contact(over_triangle({0.5, 0, 0}, {0.5, 0, 0}));
+    const auto resting = contact(over_triangle({0.5, 0, 0}, {0.5, 0, 0}), at(0));
     EXPECT_EQ(resting.features, (meeting_features{kind::vertex_edge, {0, 1, 2}}));
     expect_normal(resting, normal_source::cross_product, {0, 0, 1}, 0);
     EXPECT_FALSE(resting.sided);
     const auto vertex = still({0.5, 0, 0});
-    const auto none = ccd::find_first_contact(vertex_vertex{vertex, vertex});
+    const auto none = contact(vertex_vertex{vertex, vertex}, at(0));
     EXPECT_EQ(none.normal_from, normal_source::none);
     EXPECT_EQ(none.normal, (point{0, 0, 0}));
     EXPECT_EQ(none.normal_velocity_error, infinity);
@@ -130,59 +139,57 @@ TEST(contact_data, of_features_at_rest) {
 
 TEST(contact_data, of_motion_in_a_plane_is_normal_to_the_edge_that_is_hit) {
     // Moves obliquely through the edge f2 f0.
-    const auto found = ccd::find_first_contact(over_triangle({-0.25, 0, 0}, {0.75, 1, 0}));
+    const auto found = contact(over_triangle({-0.25, 0, 0}, {0.75, 1, 0}), at(0.25));
     EXPECT_EQ(found.features, (meeting_features{kind::vertex_edge, {0, 3, 1}}));
     expect_weights(found, {1, 0.75, 0, 0.25});
     expect_normal(found, normal_source::nearest_points, {-1, 0, 0}, -1);
     EXPECT_TRUE(found.sided);
 }
 TEST(contact_data, of_parallel_edges_is_normal_to_them) {
-    const auto found = ccd::find_first_contact(
-        on_x_axis(from_to({0, 1, 1}, {1, -1, -1}), from_to({4, 1, 1}, {5, -1, -1})));
+    const auto found = contact(
+        on_x_axis(from_to({0, 1, 1}, {1, -1, -1}), from_to({4, 1, 1}, {5, -1, -1})), at(0.5));
     EXPECT_EQ(found.features, (meeting_features{kind::vertex_edge, {1, 2, 3}}));
     expect_weights(found, {0, 1, 0.875, 0.125});
     expect_normal(found, normal_source::nearest_points, {0, -1, -1}, -std::sqrt(8));
 }
 TEST(contact_data, of_edges_on_one_line_is_along_it) {
-    const auto found = ccd::find_first_contact(
-        on_x_axis(from_to({3, 0, 0}, {1, 0, 0}), from_to({5, 0, 0}, {3, 0, 0})));
+    const auto found =
+        contact(on_x_axis(from_to({3, 0, 0}, {1, 0, 0}), from_to({5, 0, 0}, {3, 0, 0})), at(1));
     EXPECT_EQ(found.features, (meeting_features{kind::vertex_vertex, {1, 2}}));
     expect_normal(found, normal_source::nearest_points, {-1, 0, 0}, -2);
 }
 TEST(contact_data, of_a_face_without_area_is_its_edge_s) {
     const vertex_face segment{from_to({0.5, 0, 1}, {0.5, 0, -1}), still({0, 0, 0}),
                               still({1, 0, 0}), still({2, 0, 0})};
-    const auto found = ccd::find_first_contact(segment);
+    const auto found = contact(segment, at(0.5));
     EXPECT_EQ(found.features, (meeting_features{kind::vertex_edge, {0, 1, 2}}));
     expect_weights(found, {1, 0.5, 0.5, 0});
     expect_normal(found, normal_source::nearest_points, {0, 0, 1}, -2);
     const vertex_face spot{from_to({0, 0, 1}, {0, 0, -3}), still({0, 0, 0}), still({0, 0, 0}),
                            still({0, 0, 0})};
-    EXPECT_EQ(ccd::find_first_contact(spot).features,
-              (meeting_features{kind::vertex_vertex, {0, 1}}));
+    EXPECT_EQ(contact(spot, at(0.25)).features, (meeting_features{kind::vertex_vertex, {0, 1}}));
 }
 
 TEST(contact_data, of_a_vertex_and_an_edge) {
     const vertex_edge crossing{from_to({0.25, 1, 0}, {0.75, -1, 0}), still({0, 0, 0}),
                                still({1, 0, 0})};
-    const auto found = ccd::find_first_contact(crossing);
+    const auto found = contact(crossing, at(0.5));
     EXPECT_EQ(found.features, (meeting_features{kind::vertex_edge, {0, 1, 2}}));
     expect_weights(found, {1, 0.5, 0.5, 0});
     expect_normal(found, normal_source::nearest_points, {0, 1, 0}, -2);
     const vertex_edge along{from_to({0.25, 0, 0}, {0.75, 0, 0}), still({0, 0, 0}),
                             still({1, 0, 0})};
-    const auto inside = ccd::find_first_contact(along);
-    EXPECT_TRUE(inside.time.at_start());
+    const auto inside = contact(along, at(0));
     expect_normal(inside, normal_source::relative_velocity, {-1, 0, 0}, -0.5);
     EXPECT_FALSE(inside.sided);
     const vertex_edge to_its_end{from_to({-1, 0, 0}, {1, 0, 0}), still({0.5, 0, 0}),
                                  still({2, 0, 0})};
-    EXPECT_EQ(ccd::find_first_contact(to_its_end).features,
+    EXPECT_EQ(contact(to_its_end, at(0.75)).features,
               (meeting_features{kind::vertex_vertex, {0, 1}}));
 }
 TEST(contact_data, of_two_vertices) {
     const vertex_vertex query{from_to({0, 0, 0}, {2, 2, 0}), from_to({0, 2, 0}, {2, 0, 0})};
-    const auto found = ccd::find_first_contact(query);
+    const auto found = contact(query, at(0.5));
     EXPECT_EQ(found.features, (meeting_features{kind::vertex_vertex, {0, 1}}));
     expect_weights(found, {1, 1, 0, 0});
     expect_normal(found, normal_source::nearest_points, {0, -1, 0}, -4);
@@ -249,7 +256,7 @@ TEST(contact_data, of_coordinates_of_all_magnitudes) {
         };
         const vertex_face query{from_to(at(1, 2, 1), at(1, 2, -1)), still(at(0, 0, 0)),
                                 still(at(4, 0, 0)), still(at(0, 4, 0))};
-        const auto found = ccd::find_first_contact(query);
+        const auto found = contact(query, by_hand::at(0.5));
         expect_weights(found, {1, 0.25, 0.25, 0.5});
         EXPECT_EQ(found.normal, (point{0, 0, 1}));
         EXPECT_NEAR(found.normal_velocity / unit, -2, 1e-14);

@@ -27,6 +27,7 @@
 #include "ccd/step/elements.hpp"
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"
+#include "tests/ccd/step/brute_force.hpp"
 #include "tests/support/scaled.hpp"
 
 #if defined(__SSE2__)
@@ -448,39 +449,55 @@ TEST(device_search, finds_every_pair_of_leaves_that_touch_once) {
         }
 }
 
-void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
-    const auto expected = ccd::step(before, after, {.count_candidates = true});
-    const auto found = cuda_on_host::step(before, after, {}, block);
-    EXPECT_EQ(found.candidates, expected.candidates);
+void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block,
+                            const ccd::cuda::mesh_step_options& options = {}) {
+    const auto expected = ccd::step(before, after,
+                                    {.count_candidates = true,
+                                     .initial_contact = options.initial_contact,
+                                     .first_contact = options.first_contact,
+                                     .times = options.times,
+                                     .t_max = options.t_max});
+    const auto found = cuda_on_host::step(before, after, options, block);
+    if (options.t_max >= 1) {
+        EXPECT_EQ(found.candidates, expected.candidates);
+    }
     EXPECT_EQ(found.pairs, expected.pairs);
+    EXPECT_EQ(found.times, expected.times);
+    EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
+    EXPECT_EQ(found.first_contact, expected.first_contact);
 }
 
-TEST(device_step, finds_the_pairs_of_a_scene) {
+void expect_steps_as_on_host(const ccd::mesh& before, const ccd::mesh& after,
+                             std::size_t block = cuda_on_host::default_block) {
+    const auto first = ccd::step(before, after, {.first_contact = true}).first_contact;
+    for (const double t_max : {1.0, first.high, first.low, 0.5, 0.0, -1.0})
+        for (unsigned bits = 0; bits < 8; ++bits) {
+            SCOPED_TRACE(testing::Message() << "t_max " << t_max << ", options " << bits);
+            expect_step_as_on_host(before, after, block,
+                                   {.initial_contact = (bits & 1) != 0,
+                                    .first_contact = (bits & 2) != 0,
+                                    .times = (bits & 4) != 0,
+                                    .t_max = t_max});
+        }
+}
+
+TEST(device_step, finds_the_pairs_and_times_of_a_scene) {
     const fs::path scene = fs::path(ERRBOUND_SCENES) / "cloth-over-ball";
     const ccd::mesh before = ccd::io::read_mesh(scene / "frame0.ply");
     const ccd::mesh after = ccd::io::read_mesh(scene / "frame1.ply");
     EXPECT_FALSE(ccd::step(before, after).pairs.vertex_face.empty());
-    expect_step_as_on_host(before, after, cuda_on_host::default_block);
+    expect_steps_as_on_host(before, after);
     expect_step_as_on_host(before, after, 1000);
 }
 
-TEST(device_step, finds_the_pairs_of_soups_on_a_grid) {
+// On a grid contacts at the start, planar motion and ties abound.
+TEST(device_step, finds_the_pairs_and_times_of_soups_on_a_grid) {
     for (const unsigned seed : {1U, 2U, 3U, 4U}) {
-        std::mt19937_64 random(seed);
-        const auto coordinate = [&random] { return static_cast<double>(random() % 12); };
-        ccd::mesh before;
-        for (unsigned i = 0; i < 100; ++i)
-            before.vertices.push_back({coordinate(), coordinate(), coordinate()});
-        for (unsigned i = 0; i < 80; ++i) {
-            const auto v = static_cast<ccd::vertex_index>(random() % 98);
-            before.faces.push_back({v + 2, v, v + 1});
-        }
-        ccd::mesh after = before;
-        for (auto& p : after.vertices) p = {p.x + coordinate() / 4, p.y - coordinate() / 4, p.z};
-        expect_step_as_on_host(before, after, 7);
+        auto [before, after] = brute_force::random_soup(seed, 70, 50);
+        expect_steps_as_on_host(before, after, 7);
         // Two parts so far apart that floats do not distinguish the ends of their boxes.
         for (ccd::mesh* m : {&before, &after})
-            for (std::size_t i = 0; i < 50; ++i) m->vertices[i].x += 1e12;
+            for (std::size_t i = 0; i < 35; ++i) m->vertices[i].x += 1e12;
         expect_step_as_on_host(before, after, 1 << 20);
     }
 }
@@ -562,11 +579,13 @@ TEST(device_step, refuses_coordinates_that_are_not_finite) {
 }
 
 TEST(device_step, takes_meshes_of_nothing) {
-    expect_step_as_on_host({}, {}, 10);
     const ccd::mesh points{{{0, 0, 0}, {1, 0, 0}}, {}};
-    expect_step_as_on_host(points, points, 10);
-    const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}}, {{0, 1, 2}}};
-    expect_step_as_on_host(one, one, 10);
+    const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}}, {{0, 1, 2}}};
+    ccd::mesh moved = one;
+    moved.vertices[3].z = -1;
+    for (const auto& [before, after] :
+         {std::pair(ccd::mesh{}, ccd::mesh{}), {points, points}, {one, one}, {one, moved}})
+        expect_steps_as_on_host(before, after, 10);
 }
 
 }  // namespace

@@ -304,6 +304,7 @@ ccd::mesh any_mesh(std::uint64_t seed) {
 
 TEST(Intersections, AreThoseOfEveryTwoElements) {
     std::map<std::pair<ccd::intersection_kind, relation>, std::size_t> numbers;
+    std::size_t free = 0;
     for (std::uint64_t seed = 1; seed <= 10'000; ++seed) {
         const ccd::mesh mesh = any_mesh(seed);
         const found_pairs expected = expected_pairs(mesh);
@@ -315,8 +316,10 @@ TEST(Intersections, AreThoseOfEveryTwoElements) {
         ASSERT_EQ(listed(ccd::intersections(mesh, {.threads = 1, .set = set}).pairs), expected)
             << seed << ' ' << name(set);
         ASSERT_EQ(ccd::is_free_of_intersections(mesh), expected.empty()) << seed;
+        free += expected.empty();
         for (const auto& [kind, a, b, r] : expected) ++numbers[{kind, r}];
     }
+    EXPECT_GT(free, 1500U);
     for (const auto k :
          {ccd::intersection_kind::face_face, ccd::intersection_kind::edge_face,
           ccd::intersection_kind::vertex_face, ccd::intersection_kind::edge_edge,
@@ -381,13 +384,6 @@ TEST(Intersections, HaveAFilterThatIsNeverWrong) {
         EXPECT_GT(disjoint, pairs / 6);
         EXPECT_GT(crossing, pairs / 50);
     }
-}
-
-TEST(Intersections, AreThoseOfAMeshWithoutIntersections) {
-    std::size_t free = 0;
-    for (std::uint64_t seed = 1; seed <= 2000; ++seed)
-        free += ccd::is_free_of_intersections(any_mesh(seed));
-    EXPECT_GT(free, 300U);
 }
 
 TEST(Intersections, InThePlane) {
@@ -523,23 +519,6 @@ TEST(Intersections, OfPartsFarApart) {
 
 const ccd::mesh pierced{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {1.5, 1, 1}},
                         {{0, 1, 2}, {3, 4, 5}}};
-
-TEST(Intersections, OfPiercedTrianglesAreFoundAtTheStartOfAStep) {
-    ccd::mesh after = pierced;
-    for (auto& p : after.vertices) p.z += 3;
-    const found_pairs expected{
-        {ccd::intersection_kind::face_face, {3, {0, 1, 2}}, {3, {3, 4, 5}}, relation::crossing}};
-    EXPECT_EQ(listed(ccd::intersections(pierced).pairs), expected);
-    ccd::step_options options;
-    options.check_start = true;
-    const auto found = ccd::step(pierced, after, options);
-    EXPECT_EQ(number_of(found.pairs), 0U);
-    EXPECT_EQ(listed(found.intersections_at_start), expected);
-    const auto advanced = ccd::advance(pierced, after, {.check_start = true});
-    EXPECT_EQ(advanced.fraction, 1);
-    EXPECT_EQ(listed(advanced.intersections_at_start), expected);
-    EXPECT_FALSE(ccd::is_free_of_intersections(pierced));
-}
 
 TEST(Intersections, HaveTheEndsOfTheCommonSegment) {
     const auto found = ccd::intersections(pierced, {.edge_faces = true});

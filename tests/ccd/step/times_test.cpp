@@ -53,6 +53,7 @@ TEST(StepTimes, AreThoseOfEachPair) {
             const auto first =
                 ccd::step(at.first, at.second, {.threads = threads, .first_contact = true});
             EXPECT_EQ(first.times, ccd::time_lists());
+            EXPECT_EQ(ccd::step(at.first, at.second).first_contact, first_time());
             EXPECT_EQ(first.first_contact, expected.first);
             EXPECT_EQ(first.touching_at_start, expected.at_start);
         }
@@ -138,13 +139,6 @@ TEST(StepTimes, UntilAnyTimeAreThoseOfTheWholeStep) {
     expect_all(random_mixture(5), "mixture");
     for (const auto& shape : nasty_shapes::shapes)
         expect_all(nasty_shapes::triangles(shape, 3), shape.name);
-}
-
-TEST(StepTimes, AreAskedForOnlyWhereWanted) {
-    const auto at = random_mixture(4);
-    const auto result = ccd::step(at.first, at.second, {.initial_contact = true});
-    EXPECT_EQ(result.times, ccd::time_lists());
-    EXPECT_EQ(result.first_contact, first_time());
 }
 
 TEST(StepDistances, FindPairsThatOnlyWiderBoxesFind) {
