@@ -50,19 +50,6 @@ TYPED_TEST(Batch, AnswersAsOneByOne) {
     }
 }
 
-TEST(BatchOf, ReportsStagesIfAskedFor) {
-    const auto before = grid(1), after = grid(2);
-    const auto pairs = random_pairs<ccd::edge_edge_pair>(100);
-    const ccd::vertex_rows rows(before, after);
-    const auto entered = [](const ccd::stage_report& report) {
-        std::size_t sum = 0;
-        for (const auto& entry : report.stages) sum += entry.entered;
-        return sum;
-    };
-    EXPECT_EQ(entered(ccd::decide_batch(rows, pairs).stages), 0U);
-    EXPECT_GT(entered(ccd::decide_batch(rows, pairs, {.explain = true}).stages), 0U);
-}
-
 TEST(BatchOf, RefusesPositionsThatAreNull) {
     const std::vector<ccd::vertex_vertex_pair> pairs{{0, 1}};
     const std::vector<double> rows{0, 0, 0, 0, 0, 0};

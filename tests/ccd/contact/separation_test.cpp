@@ -1,5 +1,5 @@
-// Distances made by hand, one of each degenerate kind, by decide_within, time_within and the
-// reference.
+// Distances made by hand by decide_within, time_within and the reference. The soak of separations
+// has queries of all families and distances of all degenerate kinds, compared with an oracle.
 #include <gtest/gtest.h>
 
 #include <ccd/contact.hpp>
@@ -99,53 +99,4 @@ TEST(separation, whose_sphere_is_touched_at_once) {
                              still({1, 0, 0})};
     EXPECT_EQ(within(beside, {3}), at(0.25));
 }
-TEST(separation, at_a_time_that_is_no_double) {
-    // |2 − 3t| = 1 first holds at t = 1/3.
-    const vertex_vertex query{from_to({2, 0, 0}, {-1, 0, 0}), still({0, 0, 0})};
-    EXPECT_EQ(within(query, {1}), at_a_third);
-}
-TEST(separation, after_a_time_below_the_least_double) {
-    const vertex_vertex query{from_to({1 + 0x1p-52, 0, 0}, {-0x1p+1023, 0, 0}), still({0, 0, 0})};
-    const first_time found = within(query, {1});
-    EXPECT_EQ(found, between(0, least));
-    EXPECT_FALSE(found.at_start());
-}
-
-TEST(separation, of_edges) {
-    const edge_edge crossing{from_to({-1, 0, 4}, {-1, 0, 0}), from_to({1, 0, 4}, {1, 0, 0}),
-                             still({0, -1, 0}), still({0, 1, 0})};
-    EXPECT_EQ(within(crossing, {1}), at(0.75));
-    const edge_edge parallel{from_to({0, 0, 4}, {0, 0, 0}), from_to({1, 0, 4}, {1, 0, 0}),
-                             still({0.5, 0, 0}), still({1.5, 0, 0})};
-    EXPECT_EQ(within(parallel, {1}), at(0.75));
-    // The edges end 3 apart on one line: within 5 at a height of 4.
-    const edge_edge in_line{from_to({0, 0, 8}, {0, 0, 0}), from_to({1, 0, 8}, {1, 0, 0}),
-                            still({4, 0, 0}), still({9, 0, 0})};
-    EXPECT_EQ(within(in_line, {5}), at(0.5));
-    const edge_edge spots{from_to({0, 0, 8}, {0, 0, 0}), from_to({0, 0, 8}, {0, 0, 0}),
-                          still({3, 0, 0}), still({3, 0, 0})};
-    EXPECT_EQ(within(spots, {5}), at(0.5));
-}
-TEST(separation, of_a_triangle_that_is_a_segment_or_a_point) {
-    const vertex_face segment{from_to({0.5, 0, 4}, {0.5, 0, 0}), still({0, 0, 0}), still({1, 0, 0}),
-                              still({2, 0, 0})};
-    EXPECT_EQ(within(segment, {1}), at(0.75));
-    const vertex_face spot{from_to({3, 0, 8}, {3, 0, 0}), still({0, 0, 0}), still({0, 0, 0}),
-                           still({0, 0, 0})};
-    EXPECT_EQ(within(spot, {5}), at(0.5));
-}
-TEST(separation, of_all_magnitudes) {
-    const double huge = std::numeric_limits<double>::max();
-    const vertex_vertex query{from_to({huge, huge, 0}, {0, 0, 0}), still({-huge, -huge, 0})};
-    EXPECT_EQ(within(query, {huge, huge}).outcome, outcome::collides);
-    EXPECT_EQ(within(query, {huge}), never);
-    const vertex_vertex tiny{still({least, 0, 0}), still({0, 0, 0})};
-    EXPECT_EQ(within(tiny, {least}), at(0));
-    const vertex_vertex corner{still({least, least, 0}), still({0, 0, 0})};
-    EXPECT_EQ(within(corner, {least}), never);
-    EXPECT_EQ(within(corner, {least, least}), at(0));
-    const auto far = over_triangle({0.25, 0.25, huge}, {0.25, 0.25, 0});
-    EXPECT_EQ(within(far, {least}), between(std::nextafter(1.0, 0), 1));
-}
-
 }  // namespace

@@ -53,10 +53,6 @@ TEST_F(Report, CsvQuotesWhatNeedsIt) {
               "a,b,c\n\"x, \"\"y\"\"\",,0.1\n3,,\n");
 }
 
-TEST_F(Report, PartsNeedAFolder) {
-    EXPECT_THROW(lab::make_folder(write("file", "") / "parts"), errbound::support::file_error);
-}
-
 // A vertex that falls through a triangle, and one that stays above it.
 constexpr const char* hit = "0.25,0.25,1\n0,0,0\n1,0,0\n0,1,0\n0.25,0.25,-1\n0,0,0\n1,0,0\n0,1,0\n";
 constexpr const char* miss =
@@ -180,30 +176,6 @@ TEST_F(Report, FirstContactsAreInBracketsOfTwoNeighbours) {
     EXPECT_FALSE(r.contains("broken")) << r;
     EXPECT_TRUE(
         lab::find_contacts(*data, kind::edge_edge, lab::sizes(true), 1, [](double) {}).empty());
-}
-
-TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {
-    write("vf/1.csv", std::string(hit) + miss);
-    const auto data = load();
-    const rows bounds = lab::take_bounds(*data, kind::vertex_face, lab::sizes(true));
-    ASSERT_FALSE(bounds.empty());
-    EXPECT_EQ(bounds.size() % 6, 0U);
-    for (const row& r : bounds) {
-        EXPECT_EQ(r["count"], 2);
-        EXPECT_EQ(r["unknown"], 0);
-        EXPECT_LE(r["q0"], r["q100"]);
-        EXPECT_GE(r["q0"], 0);
-        EXPECT_LT(r["relative_q100"], 1e-10) << r;
-    }
-}
-
-TEST_F(Report, MadeQueriesCollideAndDoNot) {
-    for (const auto& data : lab::made_data(1)) {
-        EXPECT_EQ(data->queries.vertex_face.queries.size(), data->queries.edge_edge.queries.size());
-        EXPECT_GT(data->queries.vertex_face.colliding, 100U);
-        EXPECT_GT(data->queries.edge_edge.colliding, 100U);
-        EXPECT_LT(data->queries.edge_edge.colliding + 100, data->queries.edge_edge.queries.size());
-    }
 }
 
 }  // namespace
