@@ -288,24 +288,6 @@ TEST(degenerate_bodies, that_spin_about_an_axis_through_the_contact_touch_from_t
                          of(still, {0, -1, -3})};
     EXPECT_EQ(ccd::time_of_impact(apex), at(0));
 }
-TEST(degenerate_bodies, that_are_plates_turning_in_their_plane) {
-    // Everything is coplanar throughout: Y is identically zero.
-    for (int i = 0; i < support::scaled(40); ++i) {
-        std::mt19937 random(static_cast<unsigned>(i));
-        const auto whole = [&] { return static_cast<double>(random() % 7) - 3; };
-        const body_motion a =
-            ccd::screw({0, 0, 1 + whole() / 2}, {whole(), whole(), 0}, {whole(), whole(), 0});
-        const body_motion b =
-            ccd::screw({0, 0, whole()}, {whole(), whole(), 0}, {whole(), whole(), 0});
-        const auto in_plane = [&] { return point{whole() + 2, whole(), 0}; };
-        expect_first_time_of_oracle(vertex_face{of(a, in_plane()), of(b, in_plane()),
-                                                of(b, in_plane()), of(b, in_plane())});
-        expect_first_time_of_oracle(
-            edge_edge{of(a, in_plane()), of(a, in_plane()), of(b, in_plane()), of(b, in_plane())});
-        expect_first_time_of_oracle(
-            vertex_edge{of(a, in_plane()), of(b, in_plane()), of(b, in_plane())});
-    }
-}
 TEST(degenerate_bodies, that_are_teeth_of_gears) {
     // Two wheels with centres 10 apart turn in opposite directions; their rims of radius 5 touch
     // at (5, 0, z) at all times, so points of both rims that arrive there together touch.
@@ -323,25 +305,6 @@ TEST(degenerate_bodies, that_are_teeth_of_gears) {
                           of(right, {std::nextafter(7, 8), -4, 3})};
     EXPECT_EQ(ccd::time_of_impact(apart), never);
 }
-TEST(degenerate_bodies, that_are_a_needle_through_a_rotating_ring) {
-    // A square ring turns about x while a needle along x flies through it along the axis.
-    const body_motion ring = ccd::screw({1, 0, 0}, {0, 0, 0}, {0, 0, 0});
-    for (const double y : {0.0, 0.5, 1.0, 1.25, 1.5}) {
-        const body_motion needle = affine_motion{.p0 = {-8, 0, 0}, .p1 = {8, 0, 0}};
-        const std::array<point, 4> corners{{{0, 1, 1}, {0, -1, 1}, {0, -1, -1}, {0, 1, -1}}};
-        bool touches = false;
-        for (std::size_t i = 0; i < 4; ++i) {
-            const edge_edge query{of(needle, {-1, y, 0}), of(needle, {1, y, 0}),
-                                  of(ring, corners[i]), of(ring, corners[(i + 1) % 4])};
-            expect_first_time_of_oracle(query);
-            touches |= ccd::decide_exact(query).outcome == outcome::collides;
-        }
-        // When the needle passes x = 0, the ring has turned by about 53 degrees. The ray from the
-        // axis to the needle then meets the ring between 1.17 and 1.37.
-        EXPECT_EQ(touches, y == 1.25);
-    }
-}
-
 // ---- Random numbers ----
 
 class random_bodies : public random_source {

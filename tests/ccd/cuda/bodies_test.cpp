@@ -27,7 +27,7 @@
 #include "ccd/step/elements.hpp"
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"
-#include "tests/ccd/step/brute_force.hpp"
+#include "tests/ccd/step/expect_steps.hpp"
 #include "tests/support/scaled.hpp"
 
 #if defined(__SSE2__)
@@ -46,7 +46,6 @@ using ccd::cuda::detail::host_launcher;
 using cuda_on_host::decide_by;
 using cuda_on_host::laid_out;
 using cuda_sets::batch;
-using cuda_sets::data_folder;
 using cuda_sets::positions_of;
 
 template <class Pair>
@@ -134,8 +133,8 @@ TYPED_TEST(device_bodies, exact_is_exact_in_scenes_of_one_scale) {
 }
 
 TYPED_TEST(device_bodies, exact_is_exact_on_stored_queries) {
-    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
-    const auto set = cuda_sets::stored<TypeParam>(data_folder());
+    if (!fs::is_directory(stored_data::folder())) GTEST_SKIP() << stored_data::missing;
+    const auto set = cuda_sets::stored<TypeParam>(stored_data::folder());
     const auto truth = truth_of(set);
     for (const precision p : {precision::float64, precision::float32})
         expect_every_stage_to_settle_some(expect_exact(set, truth, p));
@@ -191,8 +190,8 @@ TYPED_TEST(device_bodies, methods_decide_as_on_the_host) {
 }
 
 TYPED_TEST(device_bodies, methods_decide_stored_queries_as_on_the_host) {
-    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
-    expect_methods_as_on_host(cuda_sets::stored<TypeParam>(data_folder()));
+    if (!fs::is_directory(stored_data::folder())) GTEST_SKIP() << stored_data::missing;
+    expect_methods_as_on_host(cuda_sets::stored<TypeParam>(stored_data::folder()));
 }
 
 TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
@@ -378,77 +377,6 @@ TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
     EXPECT_EQ(count, 0u);
 }
 
-using leaves = std::pair<std::uint32_t, std::uint32_t>;
-
-/// Runs all parts of a search, and returns the pairs that it queues.
-std::vector<leaves> search_in_parts(ccd::cuda::detail::packet_search search, std::size_t packets,
-                                    ccd::cuda::detail::search_part part) {
-    host_launcher launcher;
-    ccd::cuda::detail::search_counters counters{};
-    std::vector<ccd::cuda::detail::leaf_pair> touching(search.capacity);
-    std::vector<leaves> found;
-    search.touching = touching.data();
-    search.counters = &counters;
-    while (part.packet < packets) {
-        search.part = part;
-        counters = {};
-        launcher.for_each_packet(std::min(part.packets, packets - part.packet), search);
-        if (counters.touching > search.capacity) {
-            part.halve();
-            continue;
-        }
-        for (std::size_t i = 0; i < counters.touching; ++i)
-            found.emplace_back(touching[i].first, touching[i].second);
-        part.advance(search.tree.leaves(), true);
-    }
-    std::ranges::sort(found);
-    return found;
-}
-
-struct random_tree : ccd::cuda::detail::box_levels {
-    std::vector<ccd::cuda::detail::rounded_box> memory;
-
-    random_tree(std::mt19937& random, std::uint32_t leaves) : box_levels(leaves) {
-        // The search must not use boxes after the last one of a level.
-        memory.assign(size, {{{-9, -9, -9}, 0}, {{9, 9, 9}, 0}});
-        boxes = memory.data();
-        for (std::uint32_t i = 0; i < nodes(leaves) * children; ++i) {
-            auto& b = memory[i] = ccd::cuda::detail::rounded_box::nowhere();
-            for (std::size_t k = 0; k < 3 && i < leaves; ++k) {
-                b.low.at[k] = static_cast<float>(random() % 1000) / 500 - 1;
-                b.high.at[k] = b.low.at[k] + 0.3f;
-            }
-        }
-        for (std::size_t level = 1; level < levels; ++level)
-            for (std::uint32_t i = 0; i < count[level]; ++i)
-                ccd::cuda::detail::make_node{&memory[start[level - 1]], count[level - 1],
-                                             &memory[start[level]]}(i);
-    }
-};
-
-TEST(device_search, finds_every_pair_of_leaves_that_touch_once) {
-    std::mt19937 random(9);
-    for (const std::uint32_t m : {1U, 33U, 100U})
-        for (const std::uint32_t n : {1U, 32U, 33U, 1025U}) {
-            const random_tree mine(random, m), tree(random, n);
-            for (const auto* searching : {&mine, &tree}) {
-                const bool one_tree = searching == &tree;
-                std::vector<leaves> expected;
-                for (std::uint32_t i = 0; i < searching->leaves(); ++i)
-                    for (std::uint32_t j = one_tree ? i + 1 : 0; j < n; ++j)
-                        if (searching->memory[i].touches(tree.memory[j]))
-                            expected.emplace_back(i, j);
-                const std::size_t packets = searching->packets();
-                for (const std::size_t capacity : {32U, 1000U, 4096 * n})
-                    EXPECT_EQ(
-                        search_in_parts({*searching, tree, one_tree, nullptr, capacity, nullptr},
-                                        packets, {0, packets, 0, n}),
-                        expected)
-                        << m << " and " << n << " leaves, capacity " << capacity;
-            }
-        }
-}
-
 void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block,
                             const ccd::cuda::mesh_step_options& options = {}) {
     const auto expected = ccd::step(before, after,
@@ -461,10 +389,7 @@ void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std
     if (options.t_max >= 1) {
         EXPECT_EQ(found.candidates, expected.candidates);
     }
-    EXPECT_EQ(found.pairs, expected.pairs);
-    EXPECT_EQ(found.times, expected.times);
-    EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
-    EXPECT_EQ(found.first_contact, expected.first_contact);
+    brute_force::expect_same_results(found, expected);
 }
 
 void expect_steps_as_on_host(const ccd::mesh& before, const ccd::mesh& after,

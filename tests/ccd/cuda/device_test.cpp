@@ -19,7 +19,7 @@
 
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"
-#include "tests/ccd/step/brute_force.hpp"
+#include "tests/ccd/step/expect_steps.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -78,8 +78,8 @@ TEST_F(on_device, decides_difficult_queries_as_the_host_does) {
 }
 
 TEST_F(on_device, decides_stored_queries_as_the_host_does) {
-    const fs::path data = cuda_sets::data_folder();
-    if (!fs::is_directory(data)) GTEST_SKIP() << "No stored queries.";
+    const fs::path data = stored_data::folder();
+    if (!fs::is_directory(data)) GTEST_SKIP() << stored_data::missing;
     expect_all_methods_same(cuda_sets::stored<ccd::vertex_face_pair>(data));
     expect_all_methods_same(cuda_sets::stored<ccd::edge_edge_pair>(data));
 }
@@ -105,8 +105,8 @@ TEST_F(on_device, finds_first_times_as_the_host_does) {
 }
 
 TEST_F(on_device, finds_first_times_of_stored_queries_as_the_host_does) {
-    const fs::path data = cuda_sets::data_folder();
-    if (!fs::is_directory(data)) GTEST_SKIP() << "No stored queries.";
+    const fs::path data = stored_data::folder();
+    if (!fs::is_directory(data)) GTEST_SKIP() << stored_data::missing;
     expect_same_times(cuda_sets::stored<ccd::vertex_face_pair>(data));
     expect_same_times(cuda_sets::stored<ccd::edge_edge_pair>(data));
 }
@@ -119,10 +119,7 @@ void expect_same_step(const ccd::mesh& before, const ccd::mesh& after,
     const auto found = ccd::cuda::step(before, after, options);
     ASSERT_TRUE(found) << found.error;
     EXPECT_EQ(found.candidates, expected.candidates);
-    EXPECT_EQ(found.pairs, expected.pairs);
-    EXPECT_EQ(found.times, expected.times);
-    EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
-    EXPECT_EQ(found.first_contact, expected.first_contact);
+    brute_force::expect_same_results(found, expected);
     std::cout << before.faces.size() << " faces, " << info(options.method).name << ": "
               << expected.candidates->vertex_face + expected.candidates->edge_edge
               << " candidates, "
@@ -150,21 +147,13 @@ TEST_F(on_device, finds_the_pairs_and_times_of_a_step) {
 }
 
 TEST_F(on_device, finds_the_pairs_and_times_of_stored_scenes) {
-    const fs::path scenes = cuda_sets::data_folder() / "scenes";
-    if (!fs::is_directory(scenes)) GTEST_SKIP() << "No stored scenes.";
-    for (const auto& scene : fs::directory_iterator(scenes)) {
-        if (!scene.is_directory()) continue;
-        std::vector<fs::path> frames;
-        for (const auto& file : fs::directory_iterator(scene.path() / "frames"))
-            if (file.path().extension() == ".ply") frames.push_back(file.path());
-        std::ranges::sort(frames);
-        ASSERT_EQ(frames.size(), 2u) << scene.path();
-        const ccd::mesh before = ccd::io::read_mesh(frames[0]);
-        const ccd::mesh after = ccd::io::read_mesh(frames[1]);
+    if (!stored_data::has_scenes()) GTEST_SKIP() << stored_data::missing;
+    stored_data::for_each_scene([](const fs::path& first, const fs::path& second) {
+        const ccd::mesh before = ccd::io::read_mesh(first), after = ccd::io::read_mesh(second);
         expect_same_step(before, after, {.times = true});
         expect_same_step(before, after, {.initial_contact = true, .first_contact = true});
         expect_same_step(before, after, {.method = ccd::method::tight});
-    }
+    });
 }
 
 template <class T>

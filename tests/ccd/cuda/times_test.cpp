@@ -20,7 +20,6 @@ using ccd::first_time;
 using ccd::outcome;
 using ccd::cuda::detail::time_counters;
 using cuda_sets::batch;
-using cuda_sets::data_folder;
 
 template <class Pair>
 class device_times : public testing::Test {};
@@ -60,8 +59,8 @@ TYPED_TEST(device_times, are_those_of_the_host) {
 }
 
 TYPED_TEST(device_times, of_stored_queries_are_those_of_the_host) {
-    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
-    const auto set = cuda_sets::stored<TypeParam>(data_folder());
+    if (!fs::is_directory(stored_data::folder())) GTEST_SKIP() << stored_data::missing;
+    const auto set = cuda_sets::stored<TypeParam>(stored_data::folder());
     expect_every_stage_to_settle_some(set.size(), expect_times(set));
 }
 

@@ -154,28 +154,4 @@ TEST_F(Report, StoredPairsOfEdgesAreInAnyOrder) {
     EXPECT_EQ(data->queries.edge_edge.contradictions, 0U);
 }
 
-TEST_F(Report, FirstContactsAreInBracketsOfTwoNeighbours) {
-    // The vertex touches at 1/2, at 1/3, never, or at the start.
-    std::string third = hit, start = hit;
-    third.replace(third.find("-1"), 2, "-2");
-    start.replace(start.find(",1"), 2, ",0");
-    write("vf/1.csv", std::string(hit) + third + miss + start + hit);
-    const auto data = load();
-    const rows all =
-        lab::find_contacts(*data, kind::vertex_face, lab::sizes(true), 1, [](double) {});
-    ASSERT_EQ(all.size(), 1U);
-    const row& r = all[0];
-    EXPECT_EQ(r["queries"], 5);
-    EXPECT_EQ(r["contacts"], 4);
-    EXPECT_EQ(r["at_start"], 1);
-    EXPECT_EQ(r["one_double"], 2);
-    EXPECT_EQ(r["neighbours"], 1);
-    EXPECT_EQ(r["width_largest"], 0x1p-54);
-    EXPECT_EQ(r["timed_contacts"], 4);
-    EXPECT_GT(r["ns_batch_time"], 0);
-    EXPECT_FALSE(r.contains("broken")) << r;
-    EXPECT_TRUE(
-        lab::find_contacts(*data, kind::edge_edge, lab::sizes(true), 1, [](double) {}).empty());
-}
-
 }  // namespace

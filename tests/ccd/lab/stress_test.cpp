@@ -70,21 +70,6 @@ TEST(families, are_well_formed) {
     }
 }
 
-TEST(families, are_finite_as_declared) {
-    for (const lab::family& f : lab::families()) {
-        for (const double knob : f.knobs) {
-            for (const kind which : ccd::stored_kinds) {
-                for (std::uint64_t i = 0; i < 5; ++i) {
-                    double not_finite = 0;
-                    for_coordinates(lab::make(f, knob, which, 2, i),
-                                    [&](double x) { not_finite += !std::isfinite(x); });
-                    EXPECT_EQ(not_finite, f.finite ? 0 : knob) << f.name << ' ' << knob;
-                }
-            }
-        }
-    }
-}
-
 /// If the knob leaves queries on both sides of the decision, the family has both.
 TEST(families, hold_collisions_and_misses) {
     for (const lab::family& f : lab::families()) {

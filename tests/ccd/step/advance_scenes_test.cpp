@@ -72,14 +72,8 @@ TEST(AdvanceOfScenes, OfTheRepository) {
 }
 
 TEST(AdvanceOfScenes, Stored) {
-    const fs::path scenes = stored_data::folder() / "scenes";
-    if (!fs::is_directory(scenes)) GTEST_SKIP() << stored_data::missing;
-    for (const auto& entry : fs::directory_iterator(scenes)) {
-        if (!entry.is_directory()) continue;
-        const auto frames = stored_data::files_in(entry.path(), ".ply");
-        ASSERT_EQ(frames.size(), 2u) << entry.path();
-        advance_scene(frames[0], frames[1]);
-    }
+    if (!stored_data::has_scenes()) GTEST_SKIP() << stored_data::missing;
+    stored_data::for_each_scene(advance_scene);
 }
 
 }  // namespace

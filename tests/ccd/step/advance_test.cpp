@@ -408,31 +408,6 @@ TEST(AdvanceKeepingADistance, RestingContactsSlideOn) {
     }
 }
 
-/// A vertex is pressed onto a plate and slides along it. Without `keep`, it stops at its distance.
-TEST(AdvanceKeepingADistance, SlidesOnAtItsDistance) {
-    for (const double keep : {0.0, 0.1}) {
-        ccd::mesh x{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}, {0, 0, 0.5}}, {{0, 1, 2}}};
-        double first_distance = 0.5;
-        std::vector<double> fractions;
-        for (int i = 0; i < 4; ++i) {
-            ccd::mesh goal = x;
-            goal.vertices[3].x += 1;
-            goal.vertices[3].z -= 0.05;
-            const auto result = ccd::advance(x, goal, {.distances = {0.475}, .keep = keep});
-            fractions.push_back(result.fraction);
-            x.vertices = result.positions;
-            const double distance = ccd::least_distance(x).low;
-            EXPECT_GE(distance, std::min(0.475, keep * first_distance));
-            first_distance = distance;
-        }
-        EXPECT_NEAR(fractions[0], 0.5, 0.01);
-        if (keep == 0)
-            EXPECT_LT(fractions[3], 1e-12);
-        else
-            EXPECT_EQ(fractions[3], 1);
-    }
-}
-
 TEST(AdvanceKeepingADistance, NearPairsKeepAShareOfTheirDistance) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         auto at = random_soup(seed, 24, 8);
