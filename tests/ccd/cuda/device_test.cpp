@@ -228,23 +228,29 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
 }
 
 // Arguments are checked before anything runs, so no device is needed.
-TEST(device_arguments, are_refused_in_words) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    using ccd::cuda::decide_batch;
+class device_arguments : public testing::Test {
+  protected:
     using candidates = ccd::cuda::candidates<ccd::vertex_face_pair>;
-    const auto expect_refused = [](const ccd::cuda::status& s, const char* message) {
+    static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+    static void expect_refused(const ccd::cuda::status& s, const char* message) {
         EXPECT_NE(s.error.find(message), std::string::npos) << s.error;
-    };
+    }
+
     alignas(16) const ccd::vertex_face_pair row{0, 1, 2, 3};
-    const auto* const crooked =
-        reinterpret_cast<const ccd::vertex_face_pair*>(reinterpret_cast<const char*>(&row) + 4);
-    outcome answer{};
     alignas(256) std::byte some[256];
     const ccd::cuda::scratch little{some, sizeof some};
     const double xyz[12]{};
-    const ccd::cuda::positions at(ccd::cuda::coordinates<double>::rows(xyz),
-                                  ccd::cuda::coordinates<double>::rows(xyz), 4);
-    const auto one = candidates::rows(&row, 1);
+    const ccd::cuda::positions at{ccd::cuda::coordinates<double>::rows(xyz),
+                                  ccd::cuda::coordinates<double>::rows(xyz), 4};
+    const candidates one = candidates::rows(&row, 1);
+};
+
+TEST_F(device_arguments, of_decisions_are_refused_in_words) {
+    using ccd::cuda::decide_batch;
+    const auto* const crooked =
+        reinterpret_cast<const ccd::vertex_face_pair*>(reinterpret_cast<const char*>(&row) + 4);
+    outcome answer{};
     const ccd::vertex_index index = 0;
     expect_refused(decide_batch({}, one, &answer, little), "number of vertices is 0");
     expect_refused(decide_batch(at, one, nullptr, little), "null pointer");
@@ -262,7 +268,9 @@ TEST(device_arguments, are_refused_in_words) {
     expect_refused(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, {}), "null");
     expect_refused(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, little),
                    "scratch memory is 256; expected");
+}
 
+TEST_F(device_arguments, of_times_and_steps_are_refused_in_words) {
     ccd::first_time time;
     expect_refused(ccd::cuda::find_times(at, one, &time, little, {nan, nullptr}), "t_max is nan");
     expect_refused(ccd::cuda::find_times(at, one, nullptr, little), "null pointer");
@@ -270,7 +278,6 @@ TEST(device_arguments, are_refused_in_words) {
     std::vector<ccd::first_time> none;
     EXPECT_THROW((void)ccd::cuda::first_times(std::vector<ccd::vertex_face<double>>(1), none),
                  std::invalid_argument);
-
     EXPECT_THROW(ccd::cuda::mesh_steps(std::vector<ccd::face>{{0, 1, 4}}, 4),
                  std::invalid_argument);
     ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 4),

@@ -10,7 +10,8 @@
 
 #include "ccd/contact/integer_times.hpp"
 #include "tests/support/first_time_faults.hpp"
-#include "tests/support/fuzz_points.hpp"
+#include "tests/support/fuzz_numbers.hpp"
+#include "tests/support/query_families.hpp"
 
 namespace {
 
@@ -54,7 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto which = static_cast<ccd::kind>(from.below(4));
     // t_max is in eighths, also above 1, or any number, or 1.
     const std::size_t end = from.below(18);
-    const points p = fuzz::points_from(from);
+    const auto p = fuzz::points_from<points>(from);
     const double first = std::abs(from.next()), second = std::abs(from.next());
     const double t_max = end < 10 ? static_cast<double>(end) / 8 : end < 14 ? from.next() : 1;
     ccd::visit_kind(which, [&]<ccd::kind K>() { check<K>(p, {first, second}, t_max); });

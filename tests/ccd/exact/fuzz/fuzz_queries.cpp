@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/soak/parts.hpp"
-#include "tests/support/fuzz_points.hpp"
+#include "tests/support/fuzz_numbers.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/query_families.hpp"
 
@@ -82,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::numbers from(data, size);
     const auto which = static_cast<ccd::kind>(from.below(4));
     const std::size_t copies = 1 + from.below(17);
-    const points p = fuzz::points_from(from);
+    const auto p = fuzz::points_from<points>(from);
     ccd::visit_kind(which, [&]<ccd::kind K>() { check<K>(p, copies); });
     return 0;
 }
