@@ -23,7 +23,7 @@ FRAMES = io.Mesh(BEFORE, np.array(FACES)), io.Mesh(AFTER, np.array(FACES))
     ({"threads": 2**40}, ValueError, "threads is 1099511627776; expected 0 to"),
     ({"threads": 1.5}, TypeError, "threads is 1.5; expected an integer"),
     ({"threads": True}, TypeError, "threads is True; expected an integer"),
-    ({"method": 3}, TypeError, "method is 3; expected a name"),
+    ({"method": 3}, TypeError, "method is 3; expected a name"), ({"method": "x"}, ValueError, "method is 'x'"),
     ({"times": 1}, TypeError, "times is 1; expected True or False"),
     ({"distance": "a"}, TypeError, "distance is 'a'; expected a number"),
     ({"distance": Fraction(1, 3)}, ValueError, "expected a number that a double equals"),
@@ -84,6 +84,11 @@ def test_numbers_that_doubles_equal_are_taken(exact):
 def test_positions_are_not_rounded(wrong, error, message):
     with pytest.raises(error, match=message):
         ccd.step(wrong, np.zeros((len(wrong), 3)), ())
+
+
+def test_frames_have_the_same_vertices():
+    with pytest.raises(ValueError, match="number of vertices in after is 3; expected 4"):
+        ccd.step(BEFORE, AFTER[:3], FACES)
 
 
 def test_indices_without_positions():
@@ -247,6 +252,7 @@ def test_rows_of_different_lengths_name_the_argument():
 
 @pytest.mark.parametrize("p, error, message", [
     ([], ValueError, "p is empty; expected at least one coefficient"), ([np.nan, 1], ValueError, "expected finite numbers"),
+    ([1.0, np.nan], ValueError, "row 1 of p is nan"),
     (None, TypeError, "p is None"), ("abc", TypeError, "p is 'abc'"),
     (iter([1, 2]), TypeError, "expected a sequence of coefficients"),
 ])
@@ -256,7 +262,7 @@ def test_coefficients(p, error, message):
             call(p)
 
 
-@pytest.mark.parametrize("a, b, error", [("a", 1, TypeError), (None, 1, TypeError), (0, 10**400, ValueError),
+@pytest.mark.parametrize("a, b, error", [("a", 1, TypeError), (None, 1, TypeError), (0, 10**400, ValueError), (2, 1, ValueError),
                                          (Fraction(1, 3), 1, ValueError)])
 def test_ends_of_intervals_are_doubles(a, b, error):
     with pytest.raises(error, match="is .*; expected"):

@@ -98,20 +98,6 @@ def test_advance_in_the_plane_returns_rows_of_two():
     assert steps.advance(free.positions, free.positions + [[0, 0], [0, 0], [0, 1]]).fraction == 1
 
 
-@pytest.mark.parametrize("call, error, message", [
-    (lambda s, x: ccd.step(x, x[:-1], s), ValueError, "number of vertices in after is 8; expected 9"),
-    (lambda s, x: ccd.step(x, x, [[0, 1, 9]]), IndexError, "vertex index in row 0 of faces is 9; expected 0 to 8"),
-    (lambda s, x: ccd.step(x, x * np.nan, s), ValueError, "row 0 of after is"),
-    (lambda s, x: ccd.step(x, x, s, colour=1), TypeError, "'colour'"),
-    (lambda s, x: ccd.step(x, x, s, pinned=[1]), ValueError, r"shape of pinned is \(1,\); expected \(9,\)"),
-    (lambda s, x: ccd.step(x, x, s, method="x"), ValueError, "method is 'x'"),
-])
-def test_errors_name_the_argument(call, error, message):
-    positions = np.arange(27.0).reshape(9, 3)
-    with pytest.raises(error, match=message):
-        call(np.arange(9).reshape(3, 3), positions)
-
-
 def test_one_call_at_a_time():
     x = np.zeros((9, 3))
     steps = ccd.Steps(np.arange(9).reshape(3, 3), vertices=9)

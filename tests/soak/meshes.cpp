@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "errbound/support/hexadecimal.hpp"
-#include "tests/ccd/step/query_meshes.hpp"
 #include "tests/soak/parts.hpp"
+#include "tests/soak/query_meshes.hpp"
 
 namespace soak {
 namespace {

@@ -107,4 +107,17 @@ class numbers {
     std::abort();
 }
 
+/// The points of a query, axis by axis, so that copies of earlier numbers stay on one axis.
+template <class Points>
+Points points_from(numbers& from) {
+    Points all{};
+    using point = decltype(all[0].t0);
+    for (const auto axis : {&point::x, &point::y, &point::z})
+        for (auto& m : all) {
+            m.t0.*axis = from.next();
+            m.t1.*axis = from.next();
+        }
+    return all;
+}
+
 }  // namespace fuzz

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ccd/lab/generators.hpp"
 #include "tests/support/near_degenerate.hpp"
@@ -170,6 +171,16 @@ inline constexpr auto& families = detail::list;
 inline points make(const family& f, kind which, std::uint64_t seed, std::uint64_t index) {
     source random = source_of(f.name, {static_cast<std::uint64_t>(which), seed, index});
     return f.make(random, which);
+}
+
+/// The first queries of all families, of one kind.
+template <class Query>
+std::vector<Query> of_all_families(std::uint64_t per_family, std::uint64_t seed) {
+    std::vector<Query> all;
+    for (const auto& f : families)
+        for (std::uint64_t i = 0; i * f.thinning < per_family; ++i)
+            all.push_back(as_query<Query>(make(f, ccd::kind_of<Query>, seed, i)));
+    return all;
 }
 
 /// Calls check(query, text) for queries of all families and kinds: `per_family` of each, divided by

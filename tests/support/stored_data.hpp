@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,21 @@ inline std::vector<std::filesystem::path> files_in(const std::filesystem::path& 
         if (entry.path().extension() == extension) paths.push_back(entry.path());
     std::ranges::sort(paths);
     return paths;
+}
+
+inline bool has_scenes() {
+    return std::filesystem::is_directory(folder() / "scenes");
+}
+/// Calls visit(before, after) for the two frames of each stored scene.
+template <class Visit>
+void for_each_scene(const Visit& visit) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / "scenes")) {
+        if (!entry.is_directory()) continue;
+        const auto frames = files_in(entry.path(), ".ply");
+        if (frames.size() != 2)
+            throw std::runtime_error(entry.path().string() + ": expected two frames");
+        visit(frames[0], frames[1]);
+    }
 }
 
 }  // namespace stored_data

@@ -11,13 +11,14 @@
 #include <ostream>
 #include <string>
 
+#include "tests/ccd/contact/by_hand.hpp"
 #include "tests/support/distance_families.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/query_families.hpp"
 
 namespace support {
 
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
+using by_hand::infinity, by_hand::still;
 
 template <class T>
 struct answer {
@@ -33,9 +34,6 @@ inline answer<double> at(double t) {
     return {true, t};
 }
 
-inline ccd::moving_point<double> still(const ccd::point<double>& p) {
-    return {p, p};
-}
 // The vertex moves from 1 above a face to 3 below; one edge crosses another in the same way.
 inline const ccd::vertex_face<double> onto_face{
     {{0.25, 0.25, 1}, {0.25, 0.25, -3}}, still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};

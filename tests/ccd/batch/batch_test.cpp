@@ -40,32 +40,26 @@ TYPED_TEST(Batch, AnswersAsOneByOne) {
             contact.push_back(decide_exact(queries.back()).outcome);
             at_start.push_back(touches_at_start(queries.back()).outcome);
         }
-        for (const int threads : {0, 1, 3}) {
-            const ccd::batch_options options{.threads = threads};
-            EXPECT_EQ(ccd::decide_batch(rows, pairs, options).answers, contact);
-            EXPECT_EQ(ccd::decide_batch(queries, options).answers, contact);
-            EXPECT_EQ(ccd::touches_at_start_batch(queries, options).answers, at_start);
-            EXPECT_EQ(ccd::touches_at_start_batch(rows, pairs, options).answers, at_start);
-        }
+        for (const int threads : {0, 1, 3})
+            for (const ccd::instruction_set set : ccd::instruction_sets()) {
+                const ccd::batch_options options{.threads = threads, .set = set};
+                EXPECT_EQ(ccd::decide_batch(rows, pairs, options).answers, contact);
+                EXPECT_EQ(ccd::decide_batch(queries, options).answers, contact);
+                EXPECT_EQ(ccd::touches_at_start_batch(queries, options).answers, at_start);
+                EXPECT_EQ(ccd::touches_at_start_batch(rows, pairs, options).answers, at_start);
+            }
     }
 }
 
-TEST(BatchOf, ReportsStagesIfAskedFor) {
-    const auto before = grid(1), after = grid(2);
-    const auto pairs = random_pairs<ccd::edge_edge_pair>(100);
-    const ccd::vertex_rows rows(before, after);
-    const auto entered = [](const ccd::stage_report& report) {
-        std::size_t sum = 0;
-        for (const auto& entry : report.stages) sum += entry.entered;
-        return sum;
-    };
-    EXPECT_EQ(entered(ccd::decide_batch(rows, pairs).stages), 0U);
-    EXPECT_GT(entered(ccd::decide_batch(rows, pairs, {.explain = true}).stages), 0U);
-}
-
-TEST(BatchOf, RefusesPositionsThatAreNull) {
-    const std::vector<ccd::vertex_vertex_pair> pairs{{0, 1}};
+TEST(BatchOf, RefusesWrongArguments) {
+    const std::vector<ccd::vertex_vertex_pair> pairs{{0, 1}}, beyond{{0, 2}};
     const std::vector<double> rows{0, 0, 0, 0, 0, 0};
+    const ccd::vertex_rows at(rows.data(), rows.data(), 2);
+    EXPECT_THROW(ccd::decide_batch(at, beyond), std::invalid_argument);
+    std::vector<outcome> two(2);
+    using span = std::span<const ccd::vertex_vertex_pair>;
+    EXPECT_THROW(ccd::decide_batch(at, span(pairs), std::span(two)), std::invalid_argument);
+    ccd::decide_batch(at, span(), std::span<outcome>());
     EXPECT_THROW(ccd::decide_batch(ccd::vertex_rows(nullptr, nullptr, 2), pairs),
                  std::invalid_argument);
     EXPECT_THROW(ccd::decide_batch(ccd::vertex_rows(rows.data(), nullptr, 2), pairs),

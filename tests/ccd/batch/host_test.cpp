@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <bit>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
@@ -19,17 +18,7 @@
 
 namespace {
 
-using query_families::families;
-
-template <class Query>
-std::vector<Query> queries_of_every_family(unsigned of_each) {
-    std::vector<Query> all;
-    for (const auto& family : families)
-        for (unsigned i = 0; i * family.thinning < of_each; ++i)
-            all.push_back(
-                std::bit_cast<Query>(query_families::make(family, ccd::kind_of<Query>, 11, i)));
-    return all;
-}
+using query_families::of_all_families;
 
 /// The number of bytes of a thread's stack that `work` uses, with those of the C library: down to
 /// the lowest byte written. (Some C libraries do not allow stacks as small as those tested here.)
@@ -78,8 +67,8 @@ constexpr std::size_t most_of_one_query = 256 << 10;
 #endif
 
 TEST(SmallStacks, HoldExactAndEveryPredicate) {
-    const auto faces = queries_of_every_family<ccd::vertex_face<double>>(5);
-    const auto edges = queries_of_every_family<ccd::edge_edge<double>>(5);
+    const auto faces = of_all_families<ccd::vertex_face<double>>(5, 11);
+    const auto edges = of_all_families<ccd::edge_edge<double>>(5, 11);
     std::size_t uncertain = 0, signs = 0;
     const std::size_t taken = stack_taken_by([&] {
         for (const auto& q : faces) uncertain += decide_exact(q).outcome == ccd::outcome::uncertain;
@@ -104,7 +93,7 @@ TEST(SmallStacks, HoldExactAndEveryPredicate) {
 }
 
 TEST(SmallStacks, HoldBatchesIn320KiB) {
-    const auto queries = queries_of_every_family<ccd::edge_edge<double>>(5);
+    const auto queries = of_all_families<ccd::edge_edge<double>>(5, 11);
     const auto expected = ccd::decide_batch(queries).answers;
     std::vector<ccd::outcome> answers;
     std::size_t contacts = 0;
@@ -119,7 +108,7 @@ TEST(SmallStacks, HoldBatchesIn320KiB) {
 
 // The child process does not have the parent's threads and must not wait for them.
 TEST(Fork, ChildOfAParentWithThreadsDecides) {
-    auto queries = queries_of_every_family<ccd::vertex_face<double>>(20);
+    auto queries = of_all_families<ccd::vertex_face<double>>(20, 11);
     const auto once = queries;
     while (queries.size() < 20000) queries.insert(queries.end(), once.begin(), once.end());
     const auto expected = ccd::decide_batch(queries, {.threads = 2}).answers;

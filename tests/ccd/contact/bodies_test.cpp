@@ -1,5 +1,5 @@
-// Rational motion: curves with weights, and points of affine and rigid bodies. Cases made by hand,
-// degenerate families and random queries are compared with the oracle.
+// Points of affine and rigid bodies. Cases made by hand, degenerate families and random queries are
+// compared with the oracle.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,10 +24,10 @@
 #include "ccd/contact/rotation.hpp"
 #include "ccd/contact/turning/body_filter.hpp"
 #include "tests/ccd/bodies/positions.hpp"
-#include "tests/ccd/contact/by_hand.hpp"
+#include "tests/ccd/contact/random_motion.hpp"
 #include "tests/support/first_time_faults.hpp"
 #include "tests/support/oracle_rational.hpp"
-#include "tests/support/scaled.hpp"
+#include "tests/support/query_families.hpp"
 
 namespace {
 
@@ -42,25 +42,13 @@ using ccd::first_time;
 using ccd::kind;
 using ccd::outcome;
 using ccd::quaternion;
-using ccd::rational_curve;
 using ccd::resting;
 using ccd::rigid_motion;
 using ccd::separation;
-using control = std::vector<point>;
-using weights = std::vector<double>;
-
-/// The query of a kind with these points; kinds with fewer points skip the last ones.
-template <kind K, class Motion>
-auto query_of(const std::array<Motion, 4>& p) {
-    if constexpr (K == kind::vertex_face)
-        return ccd::vertex_face_of<Motion>{p[0], p[1], p[2], p[3]};
-    else if constexpr (K == kind::edge_edge)
-        return ccd::edge_edge_of<Motion>{p[0], p[1], p[2], p[3]};
-    else if constexpr (K == kind::vertex_edge)
-        return ccd::vertex_edge_of<Motion>{p[0], p[1], p[2]};
-    else
-        return ccd::vertex_vertex_of<Motion>{p[0], p[1]};
-}
+using random_motion::for_random_queries;
+using random_motion::query_of;
+using random_motion::random_distance;
+using random_motion::random_source;
 
 template <class Query>
 void expect_first_time_of_oracle(const Query& query, double t_max = 1) {
@@ -68,57 +56,6 @@ void expect_first_time_of_oracle(const Query& query, double t_max = 1) {
     EXPECT_EQ(support::fault_of(query, found, t_max), "");
     if (t_max < 1) return;
     EXPECT_EQ(ccd::decide_exact(query).outcome, found.outcome);
-}
-
-// ---- Curves with weights ----
-
-TEST(rational_curves, that_are_circles_meet_a_face) {
-    // x = (1 − t²)/(1 + t²), y = 2t/(1 + t²): the quarter of a circle from (1, 0) to (0, 1).
-    const control quarter{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-    const weights w{1, 1, 2};
-    // The plane x = 3/5 is met at t = 1/2, at y = 4/5.
-    const control f0{{0.6, 0.75, -1}}, f1{{0.6, 0.75, 1}}, f2{{0.6, 2, 0}};
-    const ccd::vertex_face_of<rational_curve> query{{quarter, w}, {f0}, {f1}, {f2}};
-    const first_time found = ccd::time_of_impact(query);
-    EXPECT_LE(found.low, 0.5 + 1e-15);
-    EXPECT_GE(found.high, 0.5 - 1e-15);
-    EXPECT_EQ(support::fault_of(query, found), "");
-    // A vertex on the circle itself, and one that the circle misses by one rounding.
-    const control on{{0, 1, 0}}, off{{0, std::nextafter(1, 2), 0}};
-    using pair = ccd::vertex_vertex_of<rational_curve>;
-    EXPECT_EQ(ccd::time_of_impact(pair{{quarter, w}, {on}}), at(1));
-    EXPECT_EQ(ccd::time_of_impact(pair{{quarter, w}, {off}}), never);
-    // All of the circle is at the distance 1 from its centre.
-    const control centre{{0, 0, 0}};
-    EXPECT_EQ(ccd::time_within(pair{{quarter, w}, {centre}}, {1}), at(0));
-    EXPECT_EQ(ccd::time_within(pair{{quarter, w}, {centre}}, {std::nextafter(1, 0)}), never);
-}
-TEST(rational_curves, with_equal_weights_move_as_curves_without) {
-    const control v{{0.25, 0.25, 3}, {0.25, 0.25, -5}, {0.25, 0.25, 3}};
-    const control f0{{0, 0, 0}}, f1{{1, 0, 0}}, f2{{0, 1, 0}};
-    for (const double weight : {1.0, 0.1, 1e-300, 1e300}) {
-        const weights w{weight, weight, weight};
-        const ccd::vertex_face_of<rational_curve> query{{v, w}, {f0}, {f1}, {f2}};
-        EXPECT_EQ(ccd::time_of_impact(query), at(0.25));
-        EXPECT_EQ(ccd::time_within(query, {0.5}),
-                  ccd::time_within(ccd::vertex_face_curves{v, f0, f1, f2}, {0.5}));
-    }
-}
-TEST(rational_curves, with_invalid_weights_are_refused) {
-    const control v{{0, 0, 1}, {0, 0, -1}}, o{{0, 0, 0}};
-    const auto fault = [&](const weights& w) {
-        const rational_curve motion{v, w};
-        EXPECT_EQ(ccd::time_of_impact(ccd::vertex_vertex_of<rational_curve>{motion, {o}}),
-                  first_time{});
-        EXPECT_EQ(ccd::decide_exact(ccd::vertex_vertex_of<rational_curve>{{o}, motion}).cause,
-                  ccd::cause::range);
-        return ccd::fault_of(motion);
-    };
-    EXPECT_EQ(fault({1, -1}), "weight 1 is -1.000000; expected a finite number > 0");
-    EXPECT_EQ(fault({0, 1}), "weight 0 is 0.000000; expected a finite number > 0");
-    EXPECT_EQ(fault({1, infinity}), "weight 1 is inf; expected a finite number > 0");
-    EXPECT_EQ(fault({1}), "number of weights is 1; expected 2, one for each control point");
-    EXPECT_EQ(ccd::fault_of({v, {}}), "");
 }
 
 // ---- Bodies, by hand ----
@@ -277,22 +214,23 @@ TEST(bodies, that_only_move_along_lines_have_the_times_of_linear_motion) {
                 return {{s * p.x + p0.x, s * p.y + p0.y, p.z + p0.z},
                         {s * p.x + p1.x, s * p.y + p1.y, p.z + p1.z}};
             };
-            const auto at_rest = [](const point& p) { return by_hand::still(p); };
-            const auto b = [&](std::size_t k) { return of(motion, x[k]); };
-            const auto r = [&](std::size_t k) { return of(still, x[k]); };
-            expect_as_linear(
-                ccd::vertex_face<double>{moving(x[0]), at_rest(x[1]), at_rest(x[2]), at_rest(x[3])},
-                vertex_face{b(0), r(1), r(2), r(3)});
-            expect_as_linear(
-                ccd::vertex_face<double>{at_rest(x[0]), moving(x[1]), moving(x[2]), moving(x[3])},
-                vertex_face{r(0), b(1), b(2), b(3)});
-            expect_as_linear(
-                ccd::edge_edge<double>{moving(x[0]), moving(x[1]), at_rest(x[2]), at_rest(x[3])},
-                edge_edge{b(0), b(1), r(2), r(3)});
-            expect_as_linear(ccd::vertex_edge<double>{moving(x[0]), at_rest(x[1]), at_rest(x[2])},
-                             vertex_edge{b(0), r(1), r(2)});
-            expect_as_linear(ccd::vertex_vertex<double>{moving(x[0]), at_rest(x[1])},
-                             vertex_vertex{b(0), r(1)});
+            // One feature moves, the other rests.
+            ccd::for_each_kind([&]<kind K>() {
+                for (const bool first_moves : {false, true}) {
+                    std::array<ccd::moving_point<double>, 4> linear;
+                    std::array<body_point, 4> of_bodies;
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        const bool is_first = k < ccd::kind_traits<K>::first_vertices;
+                        const bool moves = is_first == first_moves;
+                        linear[k] = moves ? moving(x[k]) : by_hand::still(x[k]);
+                        of_bodies[k] = of(moves ? motion : still, x[k]);
+                    }
+                    expect_as_linear(
+                        query_families::as_query<
+                            typename ccd::kind_traits<K>::template query<double>>(linear),
+                        query_of<K>(of_bodies));
+                }
+            });
         }
     }
 }
@@ -351,24 +289,6 @@ TEST(degenerate_bodies, that_spin_about_an_axis_through_the_contact_touch_from_t
                          of(still, {0, -1, -3})};
     EXPECT_EQ(ccd::time_of_impact(apex), at(0));
 }
-TEST(degenerate_bodies, that_are_plates_turning_in_their_plane) {
-    // Everything is coplanar throughout: Y is identically zero.
-    for (int i = 0; i < support::scaled(40); ++i) {
-        std::mt19937 random(static_cast<unsigned>(i));
-        const auto whole = [&] { return static_cast<double>(random() % 7) - 3; };
-        const body_motion a =
-            ccd::screw({0, 0, 1 + whole() / 2}, {whole(), whole(), 0}, {whole(), whole(), 0});
-        const body_motion b =
-            ccd::screw({0, 0, whole()}, {whole(), whole(), 0}, {whole(), whole(), 0});
-        const auto in_plane = [&] { return point{whole() + 2, whole(), 0}; };
-        expect_first_time_of_oracle(vertex_face{of(a, in_plane()), of(b, in_plane()),
-                                                of(b, in_plane()), of(b, in_plane())});
-        expect_first_time_of_oracle(
-            edge_edge{of(a, in_plane()), of(a, in_plane()), of(b, in_plane()), of(b, in_plane())});
-        expect_first_time_of_oracle(
-            vertex_edge{of(a, in_plane()), of(b, in_plane()), of(b, in_plane())});
-    }
-}
 TEST(degenerate_bodies, that_are_teeth_of_gears) {
     // Two wheels with centres 10 apart turn in opposite directions; their rims of radius 5 touch
     // at (5, 0, z) at all times, so points of both rims that arrive there together touch.
@@ -386,60 +306,7 @@ TEST(degenerate_bodies, that_are_teeth_of_gears) {
                           of(right, {std::nextafter(7, 8), -4, 3})};
     EXPECT_EQ(ccd::time_of_impact(apart), never);
 }
-TEST(degenerate_bodies, that_are_a_needle_through_a_rotating_ring) {
-    // A square ring turns about x while a needle along x flies through it along the axis.
-    const body_motion ring = ccd::screw({1, 0, 0}, {0, 0, 0}, {0, 0, 0});
-    for (const double y : {0.0, 0.5, 1.0, 1.25, 1.5}) {
-        const body_motion needle = affine_motion{.p0 = {-8, 0, 0}, .p1 = {8, 0, 0}};
-        const std::array<point, 4> corners{{{0, 1, 1}, {0, -1, 1}, {0, -1, -1}, {0, 1, -1}}};
-        bool touches = false;
-        for (std::size_t i = 0; i < 4; ++i) {
-            const edge_edge query{of(needle, {-1, y, 0}), of(needle, {1, y, 0}),
-                                  of(ring, corners[i]), of(ring, corners[(i + 1) % 4])};
-            expect_first_time_of_oracle(query);
-            touches |= ccd::decide_exact(query).outcome == outcome::collides;
-        }
-        // When the needle passes x = 0, the ring has turned by about 53 degrees. The ray from the
-        // axis to the needle then meets the ring between 1.17 and 1.37.
-        EXPECT_EQ(touches, y == 1.25);
-    }
-}
-
 // ---- Random numbers ----
-
-class random_source {
-  public:
-    explicit random_source(unsigned seed) : random_(seed) {}
-
-    unsigned below(unsigned n) { return static_cast<unsigned>(random_() % n); }
-    double whole(int most) {
-        return static_cast<double>(static_cast<int>(below(static_cast<unsigned>(2 * most + 1))) -
-                                   most);
-    }
-    /// On a coarse grid, where many degenerate cases arise, or anywhere in [−1, 1]. Some are moved
-    /// off the grid by a unit in the last place.
-    double number(int most) {
-        if (!on_grid) return std::ldexp(static_cast<double>(random_()), -63) - 1;
-        const double x = whole(most);
-        if (!nudged || below(4) != 0) return x;
-        return std::nextafter(x, below(2) == 0 ? infinity : -infinity);
-    }
-    point position(int most) {
-        const auto coordinate = [&] { return std::ldexp(number(most), scale); };
-        return {coordinate(), coordinate(), flat ? 0 : coordinate()};
-    }
-    void draw_style() {
-        on_grid = below(4) != 0;
-        flat = below(4) == 0;
-        nudged = below(4) == 0;
-        scale = below(4) == 0 ? static_cast<int>(below(1900)) - 1000 : 0;
-    }
-    bool on_grid = true, flat = false, nudged = false;
-    int scale = 0;  ///< of positions: a power of two
-
-  private:
-    std::mt19937_64 random_;
-};
 
 class random_bodies : public random_source {
   public:
@@ -511,60 +378,9 @@ class random_bodies : public random_source {
     }
 };
 
-struct random_rational_curves : random_source {
-    using random_source::random_source;
-    std::array<control, 4> points;
-    std::array<weights, 4> all_weights;
-
-    std::array<rational_curve, 4> curves(std::size_t most) {
-        std::array<rational_curve, 4> r;
-        for (std::size_t i = 0; i < 4; ++i) {
-            points[i].resize(1 + below(static_cast<unsigned>(most)));
-            for (point& p : points[i]) p = position(3);
-            all_weights[i].clear();
-            if (i > 0 && below(3) == 0 && points[i].size() == points[i - 1].size())
-                all_weights[i] = all_weights[i - 1];
-            else if (below(4) != 0)
-                for (std::size_t k = 0; k < points[i].size(); ++k)
-                    all_weights[i].push_back(on_grid ? 1 + below(4) : std::abs(number(1)) + 0.125);
-            r[i] = {points[i], all_weights[i]};
-        }
-        return r;
-    }
-};
-
-/// Checks `count` random queries of each kind. --gtest_random_seed=N selects another sequence, so
-/// that several runs can share a long one.
-template <class Random, class Check>
-void for_random_queries(int count, unsigned seed, const Check& check) {
-    Random random(seed + 100 * static_cast<unsigned>(GTEST_FLAG_GET(random_seed)));
-    for (int i = 0; i < support::scaled(count); ++i) {
-        random.draw_style();
-        SCOPED_TRACE("query " + std::to_string(i));
-        ccd::for_each_kind([&]<kind K>() { check.template operator()<K>(random); });
-    }
-}
 /// True unless ERRBOUND_TEST_SCALE reduces the counts.
 bool is_whole_run() {
     return support::scaled(100) >= 100;
-}
-separation random_distance(random_source& random) {
-    return {std::ldexp(1, static_cast<int>(random.below(5)) - 3 + random.scale),
-            std::ldexp(random.below(2), random.scale)};
-}
-
-TEST(random_rational_queries, touch_first_at_the_time_of_the_oracle) {
-    for_random_queries<random_rational_curves>(150, 1, []<kind K>(auto& random) {
-        const auto query = query_of<K>(random.curves(3));
-        expect_first_time_of_oracle(query, random.below(4) == 0 ? 0.5 : 1);
-    });
-}
-TEST(random_rational_queries, come_near_first_at_the_time_of_the_oracle) {
-    for_random_queries<random_rational_curves>(30, 2, []<kind K>(auto& random) {
-        const auto query = query_of<K>(random.curves(2));
-        const separation d = random_distance(random);
-        EXPECT_EQ(support::fault_of(query, d, ccd::time_within(query, d)), "");
-    });
 }
 void expect_times_of_oracle(random_bodies::style style, unsigned seed) {
     std::array<std::size_t, 4> queries{}, contacts{};

@@ -1,21 +1,18 @@
-// Motion along curves: cases made by hand, and random ones compared with the oracle.
+// Motion along curves, also with weights: cases made by hand, and random ones compared with the
+// oracle.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
-#include <ccd/methods/transform.hpp>
-#include <ccd/reference.hpp>
 #include <cmath>
 #include <cstddef>
-#include <random>
-#include <string>
+#include <type_traits>
 #include <vector>
 
-#include "tests/ccd/contact/by_hand.hpp"
+#include "tests/ccd/contact/random_motion.hpp"
 #include "tests/support/first_time_faults.hpp"
-#include "tests/support/query_families.hpp"
-#include "tests/support/scaled.hpp"
+#include "tests/support/oracle_rational.hpp"
 
 namespace {
 
@@ -24,9 +21,12 @@ using by_hand::infinity;
 using by_hand::never;
 using by_hand::point;
 using ccd::first_time;
+using ccd::kind;
 using ccd::outcome;
+using ccd::rational_curve;
 using ccd::separation;
 using control = std::vector<point>;
+using weights = std::vector<double>;
 
 const control f0{{0, 0, 0}}, f1{{1, 0, 0}}, f2{{0, 1, 0}};
 first_time over_triangle(const control& v, double t_max = 1) {
@@ -100,88 +100,115 @@ TEST(curves, in_pieces_meet_at_the_first_of_them) {
     EXPECT_EQ(start.high, 3);
 }
 
+// ---- Curves with weights ----
+
+TEST(rational_curves, that_are_circles_meet_a_face) {
+    // x = (1 − t²)/(1 + t²), y = 2t/(1 + t²): the quarter of a circle from (1, 0) to (0, 1).
+    const control quarter{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const weights w{1, 1, 2};
+    // The plane x = 3/5 is met at t = 1/2, at y = 4/5.
+    const control f0{{0.6, 0.75, -1}}, f1{{0.6, 0.75, 1}}, f2{{0.6, 2, 0}};
+    const ccd::vertex_face_of<rational_curve> query{{quarter, w}, {f0}, {f1}, {f2}};
+    const first_time found = ccd::time_of_impact(query);
+    EXPECT_LE(found.low, 0.5 + 1e-15);
+    EXPECT_GE(found.high, 0.5 - 1e-15);
+    EXPECT_EQ(support::fault_of(query, found), "");
+    // A vertex on the circle itself, and one that the circle misses by one rounding.
+    const control on{{0, 1, 0}}, off{{0, std::nextafter(1, 2), 0}};
+    using pair = ccd::vertex_vertex_of<rational_curve>;
+    EXPECT_EQ(ccd::time_of_impact(pair{{quarter, w}, {on}}), at(1));
+    EXPECT_EQ(ccd::time_of_impact(pair{{quarter, w}, {off}}), never);
+    // All of the circle is at the distance 1 from its centre.
+    const control centre{{0, 0, 0}};
+    EXPECT_EQ(ccd::time_within(pair{{quarter, w}, {centre}}, {1}), at(0));
+    EXPECT_EQ(ccd::time_within(pair{{quarter, w}, {centre}}, {std::nextafter(1, 0)}), never);
+}
+TEST(rational_curves, with_equal_weights_move_as_curves_without) {
+    const control v{{0.25, 0.25, 3}, {0.25, 0.25, -5}, {0.25, 0.25, 3}};
+    const control f0{{0, 0, 0}}, f1{{1, 0, 0}}, f2{{0, 1, 0}};
+    for (const double weight : {1.0, 0.1, 1e-300, 1e300}) {
+        const weights w{weight, weight, weight};
+        const ccd::vertex_face_of<rational_curve> query{{v, w}, {f0}, {f1}, {f2}};
+        EXPECT_EQ(ccd::time_of_impact(query), at(0.25));
+        EXPECT_EQ(ccd::time_within(query, {0.5}),
+                  ccd::time_within(ccd::vertex_face_curves{v, f0, f1, f2}, {0.5}));
+    }
+}
+TEST(rational_curves, with_invalid_weights_are_refused) {
+    const control v{{0, 0, 1}, {0, 0, -1}}, o{{0, 0, 0}};
+    const auto fault = [&](const weights& w) {
+        const rational_curve motion{v, w};
+        EXPECT_EQ(ccd::time_of_impact(ccd::vertex_vertex_of<rational_curve>{motion, {o}}),
+                  first_time{});
+        EXPECT_EQ(ccd::decide_exact(ccd::vertex_vertex_of<rational_curve>{{o}, motion}).cause,
+                  ccd::cause::range);
+        return ccd::fault_of(motion);
+    };
+    EXPECT_EQ(fault({1, -1}), "weight 1 is -1.000000; expected a finite number > 0");
+    EXPECT_EQ(fault({0, 1}), "weight 0 is 0.000000; expected a finite number > 0");
+    EXPECT_EQ(fault({1, infinity}), "weight 1 is inf; expected a finite number > 0");
+    EXPECT_EQ(fault({1}), "number of weights is 1; expected 2, one for each control point");
+    EXPECT_EQ(ccd::fault_of({v, {}}), "");
+}
+
 // ---- Random curves ----
 
-/// Curves with these control points; kinds with fewer points skip the last ones.
-template <ccd::kind K>
-auto curves_of(const std::array<control, 4>& p) {
-    if constexpr (K == ccd::kind::vertex_face)
-        return ccd::vertex_face_curves{p[0], p[1], p[2], p[3]};
-    else if constexpr (K == ccd::kind::edge_edge)
-        return ccd::edge_edge_curves{p[0], p[1], p[2], p[3]};
-    else if constexpr (K == ccd::kind::vertex_edge)
-        return ccd::vertex_edge_curves{p[0], p[1], p[2]};
-    else
-        return ccd::vertex_vertex_curves{p[0], p[1]};
-}
-
-std::string text(const std::array<control, 4>& points) {
-    std::string all;
-    for (const control& p : points) {
-        for (const point& c : p)
-            all += "(" + std::to_string(c.x) + " " + std::to_string(c.y) + " " +
-                   std::to_string(c.z) + ") ";
-        all += "\n";
-    }
-    return all;
-}
-
-/// Points on a coarse grid, where many coincide, or at random positions.
-class random_motion {
-  public:
-    explicit random_motion(unsigned seed) : random_(seed) {}
+struct random_curves : random_motion::random_source {
+    using random_source::random_source;
+    std::array<control, 4> points;
+    std::array<weights, 4> all_weights;
 
     /// Curves with 1 to `most` control points each.
-    std::array<control, 4> of_up_to(std::size_t most) {
-        size_ = 1 + static_cast<int>(random_() % 6);
-        on_grid_ = random_() % 4 != 0;
-        flat_ = random_() % 4 == 0;
-        std::array<control, 4> points;
-        for (control& c : points) {
-            c.resize(1 + random_() % most);
-            for (point& p : c) p = {coordinate(), coordinate(), flat_ ? 0 : coordinate()};
+    template <class Motion>
+    std::array<Motion, 4> of_up_to(unsigned most) {
+        std::array<Motion, 4> r;
+        for (std::size_t i = 0; i < 4; ++i) {
+            points[i].resize(1 + below(most));
+            for (point& p : points[i]) p = position(3);
+            if constexpr (std::is_same_v<Motion, ccd::curve>) {
+                r[i] = points[i];
+            } else {
+                draw_weights(i);
+                r[i] = {points[i], all_weights[i]};
+            }
         }
-        return points;
+        return r;
     }
-    unsigned number() { return static_cast<unsigned>(random_()); }
 
   private:
-    double coordinate() {
-        if (!on_grid_) return std::ldexp(static_cast<double>(random_()), -63) - 1;
-        return static_cast<double>(
-            static_cast<int>(random_() % static_cast<unsigned>(2 * size_ + 1)) - size_);
+    void draw_weights(std::size_t i) {
+        all_weights[i].clear();
+        if (i > 0 && below(3) == 0 && points[i].size() == points[i - 1].size())
+            all_weights[i] = all_weights[i - 1];
+        else if (below(4) != 0)
+            for (std::size_t k = 0; k < points[i].size(); ++k)
+                all_weights[i].push_back(on_grid ? 1 + below(4) : std::abs(number(1)) + 0.125);
     }
-    std::mt19937_64 random_;
-    int size_ = 2;
-    bool on_grid_ = true, flat_ = false;
 };
 
-template <class Check>
-void for_random_curves(int count, std::size_t most, const Check& check) {
-    random_motion random(3);
-    for (int i = 0; i < support::scaled(count); ++i) {
-        const auto points = random.of_up_to(most);
-        ccd::for_each_kind([&]<ccd::kind K>() { check(curves_of<K>(points), points, random); });
-    }
-}
-
-TEST(random_curves, touch_first_at_the_time_of_the_oracle) {
-    for_random_curves(400, 4, [](const auto& query, const auto& points, auto& random) {
-        const double t_max = random.number() % 4 == 0 ? 0.5 : 1;
-        const first_time found = ccd::time_of_impact(query, t_max);
-        EXPECT_EQ(support::fault_of(query, found, t_max), "") << text(points);
-        EXPECT_EQ(ccd::decide_exact(query).outcome == outcome::collides, oracle::collides(query))
-            << text(points);
+template <class Motion>
+void expect_times_of_oracle(int contacts, int distances, unsigned most, unsigned seed) {
+    random_motion::for_random_queries<random_curves>(contacts, seed, [&]<kind K>(auto& random) {
+        const auto query = random_motion::query_of<K>(random.template of_up_to<Motion>(most));
+        const double t_max = random.below(4) == 0 ? 0.5 : 1;
+        EXPECT_EQ(support::fault_of(query, ccd::time_of_impact(query, t_max), t_max), "");
+        EXPECT_EQ(ccd::decide_exact(query).outcome == outcome::collides, oracle::collides(query));
     });
+    random_motion::for_random_queries<random_curves>(
+        distances, seed + 1, [&]<kind K>(auto& random) {
+            const auto query =
+                random_motion::query_of<K>(random.template of_up_to<Motion>(most - 1));
+            const separation d = random_motion::random_distance(random);
+            const first_time found = ccd::time_within(query, d);
+            EXPECT_EQ(support::fault_of(query, d, found), "");
+            EXPECT_EQ(ccd::decide_within(query, d).outcome, found.outcome);
+        });
 }
-TEST(random_curves, come_near_first_at_the_time_of_the_oracle) {
-    for_random_curves(150, 3, [](const auto& query, const auto& points, auto& random) {
-        const separation d{std::ldexp(1, static_cast<int>(random.number() % 5) - 3),
-                           random.number() % 2 * 1.0};
-        const first_time found = ccd::time_within(query, d);
-        EXPECT_EQ(support::fault_of(query, d, found), "") << text(points);
-        EXPECT_EQ(ccd::decide_within(query, d).outcome, found.outcome);
-    });
+TEST(random_curves, have_the_times_of_the_oracle) {
+    expect_times_of_oracle<ccd::curve>(400, 150, 4, 3);
+}
+TEST(random_curves, with_weights_have_the_times_of_the_oracle) {
+    expect_times_of_oracle<rational_curve>(150, 30, 3, 5);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include <ccd/plane.hpp>
 #include <cmath>
 #include <cstddef>
-#include <random>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -52,15 +51,6 @@ TEST(time_derivatives, of_a_vertex_that_falls_on_a_face) {
     expect_near(derivative(over_triangle({0.25, 0.5, -1}, {0.25, 0.5, 3})).by[0], {0, 0, -start},
                 {0, 0, -end}, found.error);
 }
-TEST(time_derivatives, of_edges_that_cross) {
-    const edge_edge query{still({-1, 0, 0}), still({1, 0, 0}), from_to({0.5, -1, 1}, {0.5, -1, -1}),
-                          from_to({0.5, 1, 1}, {0.5, 1, -1})};
-    const auto found = derivative(query);
-    EXPECT_LE(found.error, 1e-15);
-    expect_near(found.by[0], {0, 0, -0.0625}, {0, 0, -0.0625}, found.error);
-    expect_near(found.by[1], {0, 0, -0.1875}, {0, 0, -0.1875}, found.error);
-    expect_near(found.by[2], {0, 0, 0.125}, {0, 0, 0.125}, found.error);
-}
 TEST(time_derivatives, at_the_end_of_the_step_are_those_of_longer_motion) {
     const auto found = derivative(over_triangle({0.25, 0.5, 1}, {0.25, 0.5, 0}));
     expect_near(found.by[0], {0, 0, 0}, {0, 0, 1}, found.error);
@@ -75,16 +65,6 @@ TEST(time_derivatives, of_a_vertex_and_an_edge_in_the_plane) {
     expect_near(found.by[1], {0, -0.1875, 0}, {0, -0.1875, 0}, found.error);
     EXPECT_EQ(found.by[3], (ccd::moving_point<double>{}));
 }
-TEST(time_derivatives, of_all_magnitudes) {
-    for (const double unit : {0x1p-600, 0x1p600, 0x1p1000}) {
-        const vertex_face query{from_to({unit, 2 * unit, unit}, {unit, 2 * unit, -unit}),
-                                still({0, 0, 0}), still({4 * unit, 0, 0}), still({0, 4 * unit, 0})};
-        const auto found = derivative(query);
-        EXPECT_NEAR(found.by[0].t0.z * unit, 0.25, found.error * unit);
-        EXPECT_LE(found.error * unit, 1e-15);
-    }
-}
-
 TEST(time_derivatives, are_undefined_where_the_time_is_not_differentiable) {
     const auto undefined = [](const auto& query) {
         const auto contact = find_first_contact(query);
@@ -290,35 +270,11 @@ TEST(time_derivative_families, are_within_their_errors_of_differences) {
     RecordProperty("defined", count.defined);
     RecordProperty("multiple_roots", count.multiple);
     EXPECT_GE(count.defined, support::scaled(2000));
+    EXPECT_GE(count.multiple, support::scaled(200) / 20);
     EXPECT_GE(static_cast<double>(count.plain_errors.size()), 0.99 * count.plain);
     ASSERT_GT(count.plain_errors.size(), 0U);
     std::ranges::sort(count.plain_errors);
     EXPECT_LT(count.plain_errors[count.plain_errors.size() / 2], 1e-13);
-}
-
-TEST(time_derivative_families, are_undefined_if_edges_touch_without_crossing) {
-    std::mt19937_64 random(31);
-    const auto whole = [&] { return static_cast<double>(static_cast<int>(random() % 15) - 7); };
-    int touching = 0;
-    for (int i = 0; i < support::scaled(1000); ++i) {
-        // Y is a square times the determinant of u, v, w.
-        const point u{whole(), whole(), whole()}, v{whole(), whole(), whole()},
-            w{whole(), whole(), whole()}, origin{whole(), whole(), whole()};
-        const auto at = [&](double x, double y, double z) {
-            return point{origin.x + x * u.x + y * v.x + z * w.x,
-                         origin.y + x * u.y + y * v.y + z * w.y,
-                         origin.z + x * u.z + y * v.z + z * w.z};
-        };
-        const edge_edge query{still(at(-1, 0, 0)), still(at(1, 0, 0)),
-                              from_to(at(0, 0, 1), at(0, -2, -1)),
-                              from_to(at(0, 2, -1), at(0, 0, 1))};
-        const auto contact = ccd::find_first_contact(query);
-        if (contact.features.kind != kind::edge_edge || contact.time.low != 0.5) continue;
-        ++touching;
-        EXPECT_TRUE(has_multiple_root(query, contact.time));
-        EXPECT_EQ(derivative_of(query, contact), time_derivative{});
-    }
-    EXPECT_GE(touching, support::scaled(900));
 }
 
 }  // namespace

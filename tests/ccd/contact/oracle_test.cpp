@@ -138,43 +138,21 @@ TEST(distance, of_a_vertex_that_passes) {
     EXPECT_FALSE(oracle::within(q, before(5), 0x1p-60));
 }
 
-TEST(distance, from_each_part_of_a_face) {
-    const auto expect = [](double d, double x, double y, double z) {
-        expect_distance(d, ccd::vertex_face<double>{rest(x, y, z), rest(0, 0, 0), rest(8, 0, 0),
-                                                    rest(0, 8, 0)});
+TEST(distance, from_faces_and_edges) {
+    const auto from_face = [](double d, moving v, moving f2) {
+        expect_distance(d, ccd::vertex_face<double>{v, rest(0, 0, 0), rest(8, 0, 0), f2});
     };
-    expect(3, 1, 2, 3);      // inside
-    expect(5, 3, -3, 4);     // f0 f1
-    expect(5, -4, 3, -3);    // f0 f2
-    expect(13, -3, -4, 12);  // f0
-    expect(13, 11, -4, 12);  // f1
-    expect(13, -3, 12, 12);  // f2
-}
-
-TEST(distance, from_degenerate_faces) {
-    const auto line = [](moving v) {
-        return ccd::vertex_face<double>{v, rest(0, 0, 0), rest(2, 0, 0), rest(8, 0, 0)};
+    from_face(3, rest(1, 2, 3), rest(0, 8, 0));      // inside
+    from_face(5, rest(3, -3, 4), rest(0, 8, 0));     // f0 f1
+    from_face(13, rest(11, -4, 12), rest(0, 8, 0));  // f1
+    from_face(5, rest(5, 3, 4), rest(2, 0, 0));      // a segment
+    const auto from_x = [](double d, moving b0, moving b1) {
+        expect_distance(d, ccd::edge_edge<double>{rest(-4, 0, 0), rest(4, 0, 0), b0, b1});
     };
-    expect_distance(5, line(rest(5, 3, 4)));
-    expect_distance(5, line(rest(1, 3, 4)));
-    expect_distance(13, line(rest(11, 4, 12)));
-    expect_distance(
-        13, ccd::vertex_face<double>{rest(3, 4, 12), rest(0, 0, 0), rest(0, 0, 0), rest(0, 0, 0)});
-}
-
-TEST(distance, of_edges) {
-    const auto from_x = [](moving b0, moving b1) {
-        return ccd::edge_edge<double>{rest(-4, 0, 0), rest(4, 0, 0), b0, b1};
-    };
-    expect_distance(3, from_x(rest(1, -2, 3), rest(1, 2, 3)));    // crossing
-    expect_distance(5, from_x(rest(1, 3, 4), rest(1, 6, 8)));     // an end and an inside
-    expect_distance(13, from_x(rest(7, 4, 12), rest(9, 8, 12)));  // ends
-    expect_distance(5, from_x(rest(-9, 3, 4), rest(9, 3, 4)));    // parallel, side by side
-    expect_distance(13, from_x(rest(7, 4, 12), rest(9, 4, 12)));  // parallel, apart
-    expect_distance(3, from_x(rest(7, 0, 0), rest(9, 0, 0)));     // on a line
-    expect_distance(5, from_x(rest(1, 3, 4), rest(1, 3, 4)));     // one is a point
-    expect_distance(
-        13, ccd::edge_edge<double>{rest(0, 0, 0), rest(0, 0, 0), rest(3, 4, 12), rest(3, 4, 12)});
+    from_x(3, rest(1, -2, 3), rest(1, 2, 3));    // crossing
+    from_x(5, rest(1, 3, 4), rest(1, 6, 8));     // an end and an inside
+    from_x(5, rest(-9, 3, 4), rest(9, 3, 4));    // parallel, side by side
+    from_x(13, rest(7, 4, 12), rest(9, 4, 12));  // parallel, apart
 }
 
 TEST(faults, of_brackets) {
@@ -195,22 +173,6 @@ TEST(faults, of_brackets) {
     EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}, low), "");
     EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}, -1), "");
     EXPECT_EQ(support::fault_of(q, first_time{}), "it is uncertain");
-}
-
-TEST(faults, of_times_that_are_doubles) {
-    const auto q = grazing(-1, 3);  // at 1/4
-    const auto fault = [&](double a, double b) {
-        return support::fault_of(q, first_time{outcome::collides, a, b});
-    };
-    EXPECT_EQ(fault(0.25, 0.25), "");
-    EXPECT_EQ(fault(0.25, after(0.25)), "it holds at low or before");
-    EXPECT_EQ(fault(before(0.25), 0.25), "it does not hold between");
-    const ccd::vertex_vertex<double> stays{rest(1, 1, 1), rest(1, 1, 1)};
-    EXPECT_EQ(support::fault_of(stays, first_time{outcome::collides, 0, 0}), "");
-    EXPECT_EQ(support::fault_of(stays, first_time{outcome::collides, 1, 1}), "it holds before");
-    const ccd::vertex_vertex<double> passes{rest(0, 0, 0), {{-12, 3, 4}, {12, 3, 4}}};
-    EXPECT_EQ(support::fault_of(passes, {2, 3}, first_time{outcome::collides, 0.5, 0.5}), "");
-    EXPECT_EQ(support::fault_of(passes, {2, 3}, first_time{outcome::separate}), "there is one");
 }
 
 TEST(families, distance_0_is_contact) {

@@ -31,24 +31,6 @@ TEST(plane_queries, of_a_vertex_that_crosses_an_edge) {
     EXPECT_EQ(plane::time_within(query, {0.5}), at(0.125));
     EXPECT_EQ(plane::decide_within(query, {0.5}).outcome, outcome::collides);
 }
-TEST(plane_queries, of_a_vertex_on_an_edge_s_line) {
-    const plane::vertex_edge query{{{-1, 0}, {3, 0}}, still({0, 0}), still({1, 0})};
-    EXPECT_EQ(plane::time_of_impact(query), at(0.25));
-    const plane::vertex_edge missed{{{-1, 0}, {-0.5, 0}}, still({0, 0}), still({1, 0})};
-    EXPECT_EQ(plane::time_of_impact(missed), never);
-    EXPECT_EQ(plane::time_within(missed, {0.5}), at(1));
-    EXPECT_EQ(plane::time_within(missed, {0.25}), never);
-}
-TEST(plane_queries, of_two_vertices) {
-    const plane::vertex_vertex query{{{0, 0}, {6, 8}}, still({3, 4})};
-    EXPECT_EQ(plane::time_of_impact(query), at(0.5));
-    EXPECT_EQ(plane::decide_exact(query).outcome, outcome::collides);
-    EXPECT_EQ(plane::time_within(query, {2.5}), at(0.25));
-    EXPECT_EQ(plane::decide_within(query, {5}).outcome, outcome::collides);
-    EXPECT_EQ(plane::touches_at_start(plane::vertex_vertex{still({1, 2}), still({1, 2})}).outcome,
-              outcome::collides);
-    EXPECT_EQ(plane::time_of_impact(plane::vertex_vertex{still({1, 2}), still({1, 3})}), never);
-}
 TEST(plane_queries, of_what_is_not_finite) {
     EXPECT_EQ(plane::time_of_impact(plane::vertex_vertex{still({0, infinity}), still({1, 2})}),
               first_time{});
@@ -62,8 +44,13 @@ ccd::moving_point<double> upright(const plane::moving_point& p) {
 TEST(random_plane_queries, agree_with_the_oracle_in_another_plane) {
     std::mt19937_64 random(11);
     const auto check = [](const auto& query, const auto& upright_query, ccd::separation d) {
-        EXPECT_EQ(support::fault_of(upright_query, plane::time_of_impact(query)), "");
-        EXPECT_EQ(support::fault_of(upright_query, d, plane::time_within(query, d)), "");
+        const first_time contact = plane::time_of_impact(query),
+                         near = plane::time_within(query, d);
+        EXPECT_EQ(support::fault_of(upright_query, contact), "");
+        EXPECT_EQ(support::fault_of(upright_query, d, near), "");
+        EXPECT_EQ(plane::decide_exact(query).outcome, contact.outcome);
+        EXPECT_EQ(plane::decide_within(query, d).outcome, near.outcome);
+        EXPECT_EQ(plane::touches_at_start(query).outcome == outcome::collides, contact.at_start());
     };
     for (int i = 0; i < support::scaled(1000); ++i) {
         const int size = static_cast<int>(random() % 8);

@@ -86,14 +86,8 @@ TEST(stored, scene_of_the_repository) {
 }
 
 TEST(stored, scenes) {
-    const fs::path scenes = stored_data::folder() / "scenes";
-    if (!fs::is_directory(scenes)) GTEST_SKIP() << stored_data::missing;
-    for (const auto& entry : fs::directory_iterator(scenes)) {
-        if (!entry.is_directory()) continue;
-        const auto frames = files_in(entry.path(), ".ply");
-        ASSERT_EQ(frames.size(), 2u) << entry.path();
-        expect_right_scene(frames[0], frames[1]);
-    }
+    if (!stored_data::has_scenes()) GTEST_SKIP() << stored_data::missing;
+    stored_data::for_each_scene(expect_right_scene);
 }
 
 // The stored first contacts of cloth-funnel, which were computed symbolically, must be in their

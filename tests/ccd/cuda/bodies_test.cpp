@@ -27,6 +27,7 @@
 #include "ccd/step/elements.hpp"
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"
+#include "tests/ccd/step/expect_steps.hpp"
 #include "tests/support/scaled.hpp"
 
 #if defined(__SSE2__)
@@ -45,7 +46,6 @@ using ccd::cuda::detail::host_launcher;
 using cuda_on_host::decide_by;
 using cuda_on_host::laid_out;
 using cuda_sets::batch;
-using cuda_sets::data_folder;
 using cuda_sets::positions_of;
 
 template <class Pair>
@@ -133,8 +133,8 @@ TYPED_TEST(device_bodies, exact_is_exact_in_scenes_of_one_scale) {
 }
 
 TYPED_TEST(device_bodies, exact_is_exact_on_stored_queries) {
-    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
-    const auto set = cuda_sets::stored<TypeParam>(data_folder());
+    if (!fs::is_directory(stored_data::folder())) GTEST_SKIP() << stored_data::missing;
+    const auto set = cuda_sets::stored<TypeParam>(stored_data::folder());
     const auto truth = truth_of(set);
     for (const precision p : {precision::float64, precision::float32})
         expect_every_stage_to_settle_some(expect_exact(set, truth, p));
@@ -190,8 +190,8 @@ TYPED_TEST(device_bodies, methods_decide_as_on_the_host) {
 }
 
 TYPED_TEST(device_bodies, methods_decide_stored_queries_as_on_the_host) {
-    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
-    expect_methods_as_on_host(cuda_sets::stored<TypeParam>(data_folder()));
+    if (!fs::is_directory(stored_data::folder())) GTEST_SKIP() << stored_data::missing;
+    expect_methods_as_on_host(cuda_sets::stored<TypeParam>(stored_data::folder()));
 }
 
 TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
@@ -377,110 +377,52 @@ TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
     EXPECT_EQ(count, 0u);
 }
 
-using leaves = std::pair<std::uint32_t, std::uint32_t>;
-
-/// Runs all parts of a search, and returns the pairs that it queues.
-std::vector<leaves> search_in_parts(ccd::cuda::detail::packet_search search, std::size_t packets,
-                                    ccd::cuda::detail::search_part part) {
-    host_launcher launcher;
-    ccd::cuda::detail::search_counters counters{};
-    std::vector<ccd::cuda::detail::leaf_pair> touching(search.capacity);
-    std::vector<leaves> found;
-    search.touching = touching.data();
-    search.counters = &counters;
-    while (part.packet < packets) {
-        search.part = part;
-        counters = {};
-        launcher.for_each_packet(std::min(part.packets, packets - part.packet), search);
-        if (counters.touching > search.capacity) {
-            part.halve();
-            continue;
-        }
-        for (std::size_t i = 0; i < counters.touching; ++i)
-            found.emplace_back(touching[i].first, touching[i].second);
-        part.advance(search.tree.leaves(), true);
+void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block,
+                            const ccd::cuda::mesh_step_options& options = {}) {
+    const auto expected = ccd::step(before, after,
+                                    {.count_candidates = true,
+                                     .initial_contact = options.initial_contact,
+                                     .first_contact = options.first_contact,
+                                     .times = options.times,
+                                     .t_max = options.t_max});
+    const auto found = cuda_on_host::step(before, after, options, block);
+    if (options.t_max >= 1) {
+        EXPECT_EQ(found.candidates, expected.candidates);
     }
-    std::ranges::sort(found);
-    return found;
+    brute_force::expect_same_results(found, expected);
 }
 
-struct random_tree : ccd::cuda::detail::box_levels {
-    std::vector<ccd::cuda::detail::rounded_box> memory;
-
-    random_tree(std::mt19937& random, std::uint32_t leaves) : box_levels(leaves) {
-        // The search must not use boxes after the last one of a level.
-        memory.assign(size, {{{-9, -9, -9}, 0}, {{9, 9, 9}, 0}});
-        boxes = memory.data();
-        for (std::uint32_t i = 0; i < nodes(leaves) * children; ++i) {
-            auto& b = memory[i] = ccd::cuda::detail::rounded_box::nowhere();
-            for (std::size_t k = 0; k < 3 && i < leaves; ++k) {
-                b.low.at[k] = static_cast<float>(random() % 1000) / 500 - 1;
-                b.high.at[k] = b.low.at[k] + 0.3f;
-            }
-        }
-        for (std::size_t level = 1; level < levels; ++level)
-            for (std::uint32_t i = 0; i < count[level]; ++i)
-                ccd::cuda::detail::make_node{&memory[start[level - 1]], count[level - 1],
-                                             &memory[start[level]]}(i);
-    }
-};
-
-TEST(device_search, finds_every_pair_of_leaves_that_touch_once) {
-    std::mt19937 random(9);
-    for (const std::uint32_t m : {1U, 33U, 100U})
-        for (const std::uint32_t n : {1U, 32U, 33U, 1025U}) {
-            const random_tree mine(random, m), tree(random, n);
-            for (const auto* searching : {&mine, &tree}) {
-                const bool one_tree = searching == &tree;
-                std::vector<leaves> expected;
-                for (std::uint32_t i = 0; i < searching->leaves(); ++i)
-                    for (std::uint32_t j = one_tree ? i + 1 : 0; j < n; ++j)
-                        if (searching->memory[i].touches(tree.memory[j]))
-                            expected.emplace_back(i, j);
-                const std::size_t packets = searching->packets();
-                for (const std::size_t capacity : {32U, 1000U, 4096 * n})
-                    EXPECT_EQ(
-                        search_in_parts({*searching, tree, one_tree, nullptr, capacity, nullptr},
-                                        packets, {0, packets, 0, n}),
-                        expected)
-                        << m << " and " << n << " leaves, capacity " << capacity;
-            }
+void expect_steps_as_on_host(const ccd::mesh& before, const ccd::mesh& after,
+                             std::size_t block = cuda_on_host::default_block) {
+    const auto first = ccd::step(before, after, {.first_contact = true}).first_contact;
+    for (const double t_max : {1.0, first.high, first.low, 0.5, 0.0, -1.0})
+        for (unsigned bits = 0; bits < 8; ++bits) {
+            SCOPED_TRACE(testing::Message() << "t_max " << t_max << ", options " << bits);
+            expect_step_as_on_host(before, after, block,
+                                   {.initial_contact = (bits & 1) != 0,
+                                    .first_contact = (bits & 2) != 0,
+                                    .times = (bits & 4) != 0,
+                                    .t_max = t_max});
         }
 }
 
-void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
-    const auto expected = ccd::step(before, after, {.count_candidates = true});
-    const auto found = cuda_on_host::step(before, after, {}, block);
-    EXPECT_EQ(found.candidates, expected.candidates);
-    EXPECT_EQ(found.pairs, expected.pairs);
-}
-
-TEST(device_step, finds_the_pairs_of_a_scene) {
+TEST(device_step, finds_the_pairs_and_times_of_a_scene) {
     const fs::path scene = fs::path(ERRBOUND_SCENES) / "cloth-over-ball";
     const ccd::mesh before = ccd::io::read_mesh(scene / "frame0.ply");
     const ccd::mesh after = ccd::io::read_mesh(scene / "frame1.ply");
     EXPECT_FALSE(ccd::step(before, after).pairs.vertex_face.empty());
-    expect_step_as_on_host(before, after, cuda_on_host::default_block);
+    expect_steps_as_on_host(before, after);
     expect_step_as_on_host(before, after, 1000);
 }
 
-TEST(device_step, finds_the_pairs_of_soups_on_a_grid) {
+// On a grid contacts at the start, planar motion and ties abound.
+TEST(device_step, finds_the_pairs_and_times_of_soups_on_a_grid) {
     for (const unsigned seed : {1U, 2U, 3U, 4U}) {
-        std::mt19937_64 random(seed);
-        const auto coordinate = [&random] { return static_cast<double>(random() % 12); };
-        ccd::mesh before;
-        for (unsigned i = 0; i < 100; ++i)
-            before.vertices.push_back({coordinate(), coordinate(), coordinate()});
-        for (unsigned i = 0; i < 80; ++i) {
-            const auto v = static_cast<ccd::vertex_index>(random() % 98);
-            before.faces.push_back({v + 2, v, v + 1});
-        }
-        ccd::mesh after = before;
-        for (auto& p : after.vertices) p = {p.x + coordinate() / 4, p.y - coordinate() / 4, p.z};
-        expect_step_as_on_host(before, after, 7);
+        auto [before, after] = brute_force::random_soup(seed, 70, 50);
+        expect_steps_as_on_host(before, after, 7);
         // Two parts so far apart that floats do not distinguish the ends of their boxes.
         for (ccd::mesh* m : {&before, &after})
-            for (std::size_t i = 0; i < 50; ++i) m->vertices[i].x += 1e12;
+            for (std::size_t i = 0; i < 35; ++i) m->vertices[i].x += 1e12;
         expect_step_as_on_host(before, after, 1 << 20);
     }
 }
@@ -562,11 +504,13 @@ TEST(device_step, refuses_coordinates_that_are_not_finite) {
 }
 
 TEST(device_step, takes_meshes_of_nothing) {
-    expect_step_as_on_host({}, {}, 10);
     const ccd::mesh points{{{0, 0, 0}, {1, 0, 0}}, {}};
-    expect_step_as_on_host(points, points, 10);
-    const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}}, {{0, 1, 2}}};
-    expect_step_as_on_host(one, one, 10);
+    const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}}, {{0, 1, 2}}};
+    ccd::mesh moved = one;
+    moved.vertices[3].z = -1;
+    for (const auto& [before, after] :
+         {std::pair(ccd::mesh{}, ccd::mesh{}), {points, points}, {one, one}, {one, moved}})
+        expect_steps_as_on_host(before, after, 10);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"
+#include "tests/ccd/step/expect_steps.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -77,8 +78,8 @@ TEST_F(on_device, decides_difficult_queries_as_the_host_does) {
 }
 
 TEST_F(on_device, decides_stored_queries_as_the_host_does) {
-    const fs::path data = cuda_sets::data_folder();
-    if (!fs::is_directory(data)) GTEST_SKIP() << "No stored queries.";
+    const fs::path data = stored_data::folder();
+    if (!fs::is_directory(data)) GTEST_SKIP() << stored_data::missing;
     expect_all_methods_same(cuda_sets::stored<ccd::vertex_face_pair>(data));
     expect_all_methods_same(cuda_sets::stored<ccd::edge_edge_pair>(data));
 }
@@ -104,8 +105,8 @@ TEST_F(on_device, finds_first_times_as_the_host_does) {
 }
 
 TEST_F(on_device, finds_first_times_of_stored_queries_as_the_host_does) {
-    const fs::path data = cuda_sets::data_folder();
-    if (!fs::is_directory(data)) GTEST_SKIP() << "No stored queries.";
+    const fs::path data = stored_data::folder();
+    if (!fs::is_directory(data)) GTEST_SKIP() << stored_data::missing;
     expect_same_times(cuda_sets::stored<ccd::vertex_face_pair>(data));
     expect_same_times(cuda_sets::stored<ccd::edge_edge_pair>(data));
 }
@@ -118,10 +119,7 @@ void expect_same_step(const ccd::mesh& before, const ccd::mesh& after,
     const auto found = ccd::cuda::step(before, after, options);
     ASSERT_TRUE(found) << found.error;
     EXPECT_EQ(found.candidates, expected.candidates);
-    EXPECT_EQ(found.pairs, expected.pairs);
-    EXPECT_EQ(found.times, expected.times);
-    EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
-    EXPECT_EQ(found.first_contact, expected.first_contact);
+    brute_force::expect_same_results(found, expected);
     std::cout << before.faces.size() << " faces, " << info(options.method).name << ": "
               << expected.candidates->vertex_face + expected.candidates->edge_edge
               << " candidates, "
@@ -139,24 +137,23 @@ TEST_F(on_device, finds_the_pairs_and_times_of_a_step) {
         for (const bool times : {false, true})
             expect_same_step(before, after,
                              {.first_contact = true, .times = times, .t_max = t_max});
+    for (const unsigned faces : {1U, 11U, 33U, 100U}) {
+        auto [strip, moved] = brute_force::random_soup(faces, faces + 2, 1);
+        strip.faces.clear();
+        for (ccd::vertex_index v = 0; v < faces; ++v) strip.faces.push_back({v + 2, v, v + 1});
+        moved.faces = strip.faces;
+        expect_same_step(strip, moved, {.times = true});
+    }
 }
 
 TEST_F(on_device, finds_the_pairs_and_times_of_stored_scenes) {
-    const fs::path scenes = cuda_sets::data_folder() / "scenes";
-    if (!fs::is_directory(scenes)) GTEST_SKIP() << "No stored scenes.";
-    for (const auto& scene : fs::directory_iterator(scenes)) {
-        if (!scene.is_directory()) continue;
-        std::vector<fs::path> frames;
-        for (const auto& file : fs::directory_iterator(scene.path() / "frames"))
-            if (file.path().extension() == ".ply") frames.push_back(file.path());
-        std::ranges::sort(frames);
-        ASSERT_EQ(frames.size(), 2u) << scene.path();
-        const ccd::mesh before = ccd::io::read_mesh(frames[0]);
-        const ccd::mesh after = ccd::io::read_mesh(frames[1]);
+    if (!stored_data::has_scenes()) GTEST_SKIP() << stored_data::missing;
+    stored_data::for_each_scene([](const fs::path& first, const fs::path& second) {
+        const ccd::mesh before = ccd::io::read_mesh(first), after = ccd::io::read_mesh(second);
         expect_same_step(before, after, {.times = true});
         expect_same_step(before, after, {.initial_contact = true, .first_contact = true});
         expect_same_step(before, after, {.method = ccd::method::tight});
-    }
+    });
 }
 
 template <class T>
@@ -231,75 +228,61 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
 }
 
 // Arguments are checked before anything runs, so no device is needed.
-TEST(device_arguments, are_refused_in_words) {
-    const ccd::cuda::positions nowhere;
-    alignas(16) const ccd::vertex_face_pair row{0, 1, 2, 3};
+class device_arguments : public testing::Test {
+  protected:
     using candidates = ccd::cuda::candidates<ccd::vertex_face_pair>;
-    outcome answer{};
+    static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+    static void expect_refused(const ccd::cuda::status& s, const char* message) {
+        EXPECT_NE(s.error.find(message), std::string::npos) << s.error;
+    }
+
+    alignas(16) const ccd::vertex_face_pair row{0, 1, 2, 3};
     alignas(256) std::byte some[256];
-    const double xyz[12]{};
-    const ccd::cuda::positions at(ccd::cuda::coordinates<double>::rows(xyz),
-                                  ccd::cuda::coordinates<double>::rows(xyz), 4);
     const ccd::cuda::scratch little{some, sizeof some};
-    const auto error = [&](const auto&... arguments) {
-        return ccd::cuda::decide_batch(arguments...).error;
-    };
-    const auto one = candidates::rows(&row, 1);
-    EXPECT_NE(error(nowhere, one, &answer, little).find("number of vertices is 0"),
-              std::string::npos);
-    EXPECT_NE(error(at, one, nullptr, little).find("null pointer"), std::string::npos);
-    EXPECT_NE(error(at, one, &answer, little).find("scratch memory is 256; expected"),
-              std::string::npos);
+    const double xyz[12]{};
+    const ccd::cuda::positions at{ccd::cuda::coordinates<double>::rows(xyz),
+                                  ccd::cuda::coordinates<double>::rows(xyz), 4};
+    const candidates one = candidates::rows(&row, 1);
+};
+
+TEST_F(device_arguments, of_decisions_are_refused_in_words) {
+    using ccd::cuda::decide_batch;
     const auto* const crooked =
         reinterpret_cast<const ccd::vertex_face_pair*>(reinterpret_cast<const char*>(&row) + 4);
-    EXPECT_NE(error(at, candidates::rows(crooked, 1), &answer, little).find("multiple of 16"),
-              std::string::npos);
-    EXPECT_NE(error(at, one, &answer, little, ccd::cuda::batch_options{ccd::method::provot})
-                  .find("provot; expected"),
-              std::string::npos);
-    EXPECT_NE(error(at, candidates::rows(&row, std::size_t(1) << 32), &answer, little)
-                  .find("expected <="),
-              std::string::npos);
-    EXPECT_NE(error(at, candidates::rows(nullptr, 1), &answer, little).find("null pointer"),
-              std::string::npos);
-    const ccd::vertex_index one_index = 0;
-    EXPECT_NE(error(at, candidates::pairs(&one_index, &one_index, nullptr, 1), &answer, little)
-                  .find("null pointer"),
-              std::string::npos);
-    EXPECT_TRUE(ccd::cuda::decide_batch(at, candidates{}, nullptr, {}));
+    outcome answer{};
+    const ccd::vertex_index index = 0;
+    expect_refused(decide_batch({}, one, &answer, little), "number of vertices is 0");
+    expect_refused(decide_batch(at, one, nullptr, little), "null pointer");
+    expect_refused(decide_batch(at, one, &answer, little), "scratch memory is 256; expected");
+    expect_refused(decide_batch(at, one, &answer, little, {ccd::method::provot}),
+                   "provot; expected");
+    for (const auto& [wrong, message] :
+         {std::pair(candidates::rows(crooked, 1), "multiple of 16"),
+          {candidates::rows(&row, std::size_t(1) << 32), "expected <="},
+          {candidates::rows(nullptr, 1), "null pointer"},
+          {candidates::pairs(&index, &index, nullptr, 1), "null pointer"}})
+        expect_refused(decide_batch(at, wrong, &answer, little), message);
+    EXPECT_TRUE(decide_batch(at, candidates{}, nullptr, {}));
     ccd::vertex_index found_one = 0, count = 0;
-    EXPECT_NE(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, {}).error.find("null"),
-              std::string::npos);
-    EXPECT_NE(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, little)
-                  .error.find("scratch memory is 256; expected"),
-              std::string::npos);
-    EXPECT_THROW(ccd::cuda::mesh_steps(std::vector<ccd::face>{{0, 1, 4}}, 4),
-                 std::invalid_argument);
-    ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 3);
-    EXPECT_NE(steps.run(at).error.find("is 4; expected 3"), std::string::npos);
+    expect_refused(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, {}), "null");
+    expect_refused(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, little),
+                   "scratch memory is 256; expected");
 }
 
-TEST(device_arguments, of_first_times_are_refused_in_words) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    alignas(16) const ccd::vertex_face_pair row{0, 1, 2, 3};
-    alignas(256) std::byte some[256];
-    const double xyz[12]{};
-    const ccd::cuda::positions at(ccd::cuda::coordinates<double>::rows(xyz),
-                                  ccd::cuda::coordinates<double>::rows(xyz), 4);
-    const ccd::cuda::scratch little{some, sizeof some};
-    const auto one = ccd::cuda::candidates<ccd::vertex_face_pair>::rows(&row, 1);
+TEST_F(device_arguments, of_times_and_steps_are_refused_in_words) {
     ccd::first_time time;
-    const auto expect_refused = [](const ccd::cuda::status& s, const char* what) {
-        EXPECT_NE(s.error.find(what), std::string::npos) << s.error;
-    };
     expect_refused(ccd::cuda::find_times(at, one, &time, little, {nan, nullptr}), "t_max is nan");
     expect_refused(ccd::cuda::find_times(at, one, nullptr, little), "null pointer");
     expect_refused(ccd::cuda::finish_times(at, one, &time, little), "scratch memory is 256");
     std::vector<ccd::first_time> none;
     EXPECT_THROW((void)ccd::cuda::first_times(std::vector<ccd::vertex_face<double>>(1), none),
                  std::invalid_argument);
-
-    ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 4);
+    EXPECT_THROW(ccd::cuda::mesh_steps(std::vector<ccd::face>{{0, 1, 4}}, 4),
+                 std::invalid_argument);
+    ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 4),
+        others(std::vector<ccd::face>{{0, 1, 2}}, 3);
+    expect_refused(others.run(at), "is 4; expected 3");
     expect_refused(steps.run(at, {.method = ccd::method::tight, .times = true}),
                    "method is tight; expected exact");
     expect_refused(steps.run(at, {.t_max = nan}), "t_max is nan");

@@ -7,16 +7,15 @@
 #include <ccd/methods/transform.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "ccd/cuda/queries.hpp"
 #include "tests/support/query_families.hpp"
+#include "tests/support/stored_data.hpp"
 
 namespace cuda_sets {
 
@@ -71,18 +70,12 @@ batch<Pair> of_families(std::uint64_t count, std::uint64_t seed) {
 template <class Pair>
 batch<Pair> stored(const std::filesystem::path& folder) {
     batch<Pair> all;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        if (entry.path().extension() != ".csv") continue;
-        const auto file = ccd::io::read_queries(entry.path(), std::nullopt, false);
+    for (const auto& path : stored_data::files_in(folder, ".csv")) {
+        const auto file = ccd::io::read_queries(path, std::nullopt, false);
         if (const auto* queries = std::get_if<std::vector<ccd::query_of_pair<Pair>>>(&file.queries))
             for (const auto& q : *queries) all.add(q);
     }
     return all;
-}
-
-inline std::filesystem::path data_folder() {
-    if (const char* folder = std::getenv("ERRBOUND_SHARED_DATA")) return folder;
-    return ERRBOUND_SHARED_DATA;
 }
 
 }  // namespace cuda_sets

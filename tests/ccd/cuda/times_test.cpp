@@ -2,13 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <ccd/contact.hpp>
-#include <ccd/io/mesh_file.hpp>
-#include <ccd/step.hpp>
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "ccd/cuda/time_stages.hpp"
@@ -23,7 +20,6 @@ using ccd::first_time;
 using ccd::outcome;
 using ccd::cuda::detail::time_counters;
 using cuda_sets::batch;
-using cuda_sets::data_folder;
 
 template <class Pair>
 class device_times : public testing::Test {};
@@ -63,8 +59,8 @@ TYPED_TEST(device_times, are_those_of_the_host) {
 }
 
 TYPED_TEST(device_times, of_stored_queries_are_those_of_the_host) {
-    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
-    const auto set = cuda_sets::stored<TypeParam>(data_folder());
+    if (!fs::is_directory(stored_data::folder())) GTEST_SKIP() << stored_data::missing;
+    const auto set = cuda_sets::stored<TypeParam>(stored_data::folder());
     expect_every_stage_to_settle_some(set.size(), expect_times(set));
 }
 
@@ -136,62 +132,6 @@ TYPED_TEST(device_times, of_listed_candidates_come_in_the_order_of_the_list) {
     expect_equal(cuda_on_host::first_times(set.positions(),
                                            set.candidates().listed(numbers.data(), numbers.size())),
                  expected);
-}
-
-void expect_steps_as_on_host(const ccd::mesh& before, const ccd::mesh& after,
-                             std::size_t block = cuda_on_host::default_block) {
-    const auto first = ccd::step(before, after, {.first_contact = true}).first_contact;
-    for (const double t_max : {1.0, first.high, first.low, 0.5, 0.0, -1.0})
-        for (unsigned bits = 0; bits < 8; ++bits) {
-            SCOPED_TRACE(testing::Message() << "t_max " << t_max << ", options " << bits);
-            const ccd::cuda::mesh_step_options options{.initial_contact = (bits & 1) != 0,
-                                                       .first_contact = (bits & 2) != 0,
-                                                       .times = (bits & 4) != 0,
-                                                       .t_max = t_max};
-            const auto expected = ccd::step(before, after,
-                                            {.initial_contact = options.initial_contact,
-                                             .first_contact = options.first_contact,
-                                             .times = options.times,
-                                             .t_max = t_max});
-            const auto found = cuda_on_host::step(before, after, options, block);
-            EXPECT_EQ(found.pairs, expected.pairs);
-            EXPECT_EQ(found.times, expected.times);
-            EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
-            EXPECT_EQ(found.first_contact, expected.first_contact);
-        }
-}
-
-TEST(device_step_times, of_a_scene_are_those_of_the_host) {
-    const fs::path scene = fs::path(ERRBOUND_SCENES) / "cloth-over-ball";
-    expect_steps_as_on_host(ccd::io::read_mesh(scene / "frame0.ply"),
-                            ccd::io::read_mesh(scene / "frame1.ply"));
-}
-
-// On a grid contacts at the start, planar motion and ties abound.
-TEST(device_step_times, of_soups_on_a_grid_are_those_of_the_host) {
-    for (const unsigned seed : {5U, 6U, 7U}) {
-        std::mt19937_64 random(seed);
-        const auto coordinate = [&random] { return static_cast<double>(random() % 12); };
-        ccd::mesh before;
-        for (unsigned i = 0; i < 60; ++i)
-            before.vertices.push_back({coordinate(), coordinate(), coordinate()});
-        for (unsigned i = 0; i < 40; ++i) {
-            const auto v = static_cast<ccd::vertex_index>(random() % 58);
-            before.faces.push_back({v + 2, v, v + 1});
-        }
-        ccd::mesh after = before;
-        for (auto& p : after.vertices) p = {p.x + coordinate() / 4, p.y - coordinate() / 4, p.z};
-        expect_steps_as_on_host(before, after, 7);
-    }
-}
-
-TEST(device_step_times, of_meshes_of_nothing_are_none) {
-    expect_steps_as_on_host({}, {});
-    const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}}, {{0, 1, 2}}};
-    ccd::mesh moved = one;
-    expect_steps_as_on_host(one, moved);
-    moved.vertices[3].z = -1;
-    expect_steps_as_on_host(one, moved);
 }
 
 }  // namespace

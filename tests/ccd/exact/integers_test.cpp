@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <errbound/bernstein.hpp>
-#include <errbound/integers/binary_double.hpp>
 #include <errbound/integers/fixed_integer.hpp>
 #include <random>
 
@@ -131,17 +130,6 @@ TEST(CubicRoots, NoBracketDependsOnTheEstimate) {
         ASSERT_LE(bracket->low, 1 << (bits - 1));
         ASSERT_GE(bracket->high, 1 << (bits - 1));
         ASSERT_LE(bracket->high, end);
-    }
-}
-
-TEST(BinaryDouble, IsTheNumber) {
-    for (const double x : {0.0, 1.0, -1.5, 0x1p-1074, -0x1.8p-1070, 0x1.fffffffffffffp1023, 0.1}) {
-        const errbound::integers::binary_double d(x);
-        EXPECT_EQ(std::ldexp(static_cast<double>(d.magnitude), d.exponent), std::fabs(x));
-        EXPECT_EQ(d.negative, x < 0);
-        if (x == 0) continue;
-        EXPECT_EQ(std::fmod(std::ldexp(std::fabs(x), -d.last_bit()), 2), 1);
-        EXPECT_EQ(d.end_bit(), std::ilogb(x) + 1);
     }
 }
 

@@ -124,27 +124,4 @@ TEST_P(Promises, AreKept) {
 INSTANTIATE_TEST_SUITE_P(Kinds, Promises, testing::ValuesIn(ccd::stored_kinds),
                          [](const auto& which) { return std::string(short_name(which.param)); });
 
-// A face with equal corners is an edge or a vertex, and an edge with equal ends is a vertex. The
-// oracle decides those separately.
-TEST(SmallFeatures, AreDecidedAsFacesAndAsEdges) {
-    for_all_queries(queries_per_family() / 10 + 1, [](const auto& family, std::uint64_t index) {
-        const auto agree = [&](kind which, const points& original, const points& as_face,
-                               const points& as_edges) {
-            const auto where = [&] { return describe(family, which, index, original); };
-            const outcome right = right_outcome(which, original, where);
-            using enum ccd::method;
-            EXPECT_EQ(decide(exact, kind::vertex_face, as_face).outcome, right) << where();
-            EXPECT_EQ(decide(exact, kind::edge_edge, as_edges).outcome, right) << where();
-            const ccd::verdict integers = decide_in_integers(which, original);
-            EXPECT_TRUE(integers.outcome == outcome::uncertain ? integers.cause == ccd::cause::range
-                                                               : integers.outcome == right)
-                << where();
-        };
-        const points e = query_families::make(family, kind::vertex_edge, seed, index);
-        agree(kind::vertex_edge, e, {e[0], e[1], e[2], e[1]}, {e[0], e[0], e[1], e[2]});
-        const points v = query_families::make(family, kind::vertex_vertex, seed, index);
-        agree(kind::vertex_vertex, v, {v[0], v[1], v[1], v[1]}, {v[0], v[0], v[1], v[1]});
-    });
-}
-
 }  // namespace

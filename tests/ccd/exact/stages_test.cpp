@@ -140,6 +140,8 @@ TEST(reports, account_for_every_query) {
             const auto batch = ccd::decide_batch(set.queries, {.set = isa, .explain = true});
             expect_all(batch.stages, batch.answers);
         }
+        for (const auto& entry : ccd::decide_batch(set.queries).stages.stages)
+            EXPECT_EQ(entry.entered, 0) << "no report is wanted";
     });
 }
 
@@ -162,21 +164,6 @@ TEST(stages, features_that_a_coordinate_separates_need_no_unbounded_integers_at_
     EXPECT_EQ(entered_last(), 1);
 }
 
-/// Consecutive queries as rows of a vertex array.
-template <class Query>
-struct rows_of_queries {
-    std::vector<double> before, after;
-
-    explicit rows_of_queries(const std::vector<Query>& queries) {
-        for (const Query& q : queries)
-            for (const auto& p : ccd::points_of(q)) {
-                for (const double x : {p.t0.x, p.t0.y, p.t0.z}) before.push_back(x);
-                for (const double x : {p.t1.x, p.t1.y, p.t1.z}) after.push_back(x);
-            }
-    }
-    ccd::vertex_rows rows() const { return {before.data(), after.data(), before.size() / 3}; }
-};
-
 TEST(batch, every_length_up_to_several_packs) {
     const auto& set = edge_edge_set();
     for (const ccd::instruction_set isa : ccd::instruction_sets())
@@ -188,48 +175,6 @@ TEST(batch, every_length_up_to_several_packs) {
             for (std::size_t i = 0; i < size; ++i)
                 ASSERT_EQ(answers[i], set.truth[first + i]) << set.names[first + i];
         }
-}
-
-TEST(batch, coordinates_that_are_not_finite_are_uncertain_and_harm_no_other_query) {
-    auto queries = vertex_face_set().queries;
-    auto truth = vertex_face_set().truth;
-    queries.resize(std::min(queries.size(), std::size_t(500)));
-    truth.resize(queries.size());
-    const double bad[] = {std::numeric_limits<double>::quiet_NaN(),
-                          std::numeric_limits<double>::infinity(),
-                          -std::numeric_limits<double>::infinity()};
-    for (std::size_t i = 0; i < queries.size(); i += 7) {
-        auto* numbers = reinterpret_cast<double*>(&queries[i]);
-        numbers[i % 24] = bad[i % 3];
-        truth[i] = ccd::outcome::uncertain;
-        EXPECT_EQ(decide_exact(queries[i]).cause, ccd::cause::range);
-    }
-    std::vector<ccd::vertex_face_pair> indices;
-    for (ccd::vertex_index i = 0; i < 4 * queries.size(); i += 4)
-        indices.push_back({i, i + 1, i + 2, i + 3});
-    const rows_of_queries<ccd::vertex_face<double>> positions(queries);
-    for (const ccd::instruction_set isa : ccd::instruction_sets()) {
-        std::vector<ccd::outcome> answers(queries.size());
-        ccd::decide_batch(std::span<const ccd::vertex_face<double>>(queries), std::span(answers),
-                          {.set = isa});
-        EXPECT_EQ(answers, truth);
-        ccd::decide_batch(positions.rows(), std::span<const ccd::vertex_face_pair>(indices),
-                          std::span(answers), {.set = isa});
-        EXPECT_EQ(answers, truth);
-    }
-}
-
-TEST(batch, rejects_invalid_arguments) {
-    const std::vector<double> numbers(12);
-    const ccd::vertex_rows rows(numbers.data(), numbers.data(), 4);
-    std::vector<ccd::outcome> answers(1);
-    const std::vector<ccd::vertex_face_pair> good{{0, 1, 2, 3}}, bad{{0, 1, 2, 4}};
-    using span = std::span<const ccd::vertex_face_pair>;
-    EXPECT_NO_THROW(ccd::decide_batch(rows, span(good), answers));
-    EXPECT_THROW(ccd::decide_batch(rows, span(bad), answers), std::invalid_argument);
-    answers.resize(2);
-    EXPECT_THROW(ccd::decide_batch(rows, span(good), answers), std::invalid_argument);
-    ccd::decide_batch(rows, span(), std::span<ccd::outcome>());
 }
 
 // If a scene's extent is one or two ulps of its position, the rounded middle is one of its ends.

@@ -1,5 +1,6 @@
 // The readers of meshes: binary files, whole files, shares, topology. fuzz_spellings tests all
-// formats and types of numbers; spellings_test.cpp tests texts.
+// formats and types of numbers, fuzz_mesh_files what the writer writes; spellings_test.cpp tests
+// texts.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -24,7 +25,6 @@ using namespace ccd::io;
 using test_files::message_of;
 using test_files::temporary_directory;
 using test_files::write;
-using test_meshes::obj_of;
 using test_meshes::same_mesh;
 namespace fs = std::filesystem;
 
@@ -55,28 +55,6 @@ TEST(Ply, BodiesThatBeginWithLineEnds) {
     for (const char* end : {"\n", "\r\n", "\r"})
         expect_ply(test_meshes::with_line_ends(text.substr(0, header), end) + text.substr(header),
                    m);
-}
-
-/// Faces and edges of any vertices, also repeated ones, or without any.
-TEST(Meshes, AreReadBackAsWritten) {
-    std::mt19937_64 random(12);
-    for (int i = 0; i < 500; ++i) {
-        mesh m;
-        m.vertices.resize(i == 0 ? 0 : 1 + random() % 5);
-        for (point<double>& p : m.vertices)
-            for (double* x : {&p.x, &p.y, &p.z}) do
-                    *x = std::bit_cast<double>(random());
-                while (!std::isfinite(*x));
-        const auto any = [&] { return static_cast<vertex_index>(random() % m.vertices.size()); };
-        for (auto n = i == 0 ? 0 : random() % 4; n > 0; --n)
-            m.faces.push_back({any(), any(), any()});
-        for (auto n = i == 0 ? 0 : random() % 4; n > 0; --n) m.edges.push_back({any(), any()});
-        expect_ply(ply_of(m), m);
-        if (i == 0) continue;  // OBJ files have vertices
-        EXPECT_TRUE(same_mesh(parse_mesh_obj(obj_of(m), "m"), m));
-    }
-    const mesh extremes{{{-0.0, 0x1p-1074, 0x1.fffffffffffffp1023}, {}}, {}, {{1, 0}}};
-    expect_ply(ply_of(extremes), extremes);
 }
 
 TEST(Ply, BadBinary) {

@@ -53,10 +53,6 @@ TEST_F(Report, CsvQuotesWhatNeedsIt) {
               "a,b,c\n\"x, \"\"y\"\"\",,0.1\n3,,\n");
 }
 
-TEST_F(Report, PartsNeedAFolder) {
-    EXPECT_THROW(lab::make_folder(write("file", "") / "parts"), errbound::support::file_error);
-}
-
 // A vertex that falls through a triangle, and one that stays above it.
 constexpr const char* hit = "0.25,0.25,1\n0,0,0\n1,0,0\n0,1,0\n0.25,0.25,-1\n0,0,0\n1,0,0\n0,1,0\n";
 constexpr const char* miss =
@@ -156,54 +152,6 @@ TEST_F(Report, StoredPairsOfEdgesAreInAnyOrder) {
     EXPECT_EQ(data->queries.edge_edge.colliding, 2U);
     EXPECT_EQ(data->queries.edge_edge.stored_truths, 3U);
     EXPECT_EQ(data->queries.edge_edge.contradictions, 0U);
-}
-
-TEST_F(Report, FirstContactsAreInBracketsOfTwoNeighbours) {
-    // The vertex touches at 1/2, at 1/3, never, or at the start.
-    std::string third = hit, start = hit;
-    third.replace(third.find("-1"), 2, "-2");
-    start.replace(start.find(",1"), 2, ",0");
-    write("vf/1.csv", std::string(hit) + third + miss + start + hit);
-    const auto data = load();
-    const rows all =
-        lab::find_contacts(*data, kind::vertex_face, lab::sizes(true), 1, [](double) {});
-    ASSERT_EQ(all.size(), 1U);
-    const row& r = all[0];
-    EXPECT_EQ(r["queries"], 5);
-    EXPECT_EQ(r["contacts"], 4);
-    EXPECT_EQ(r["at_start"], 1);
-    EXPECT_EQ(r["one_double"], 2);
-    EXPECT_EQ(r["neighbours"], 1);
-    EXPECT_EQ(r["width_largest"], 0x1p-54);
-    EXPECT_EQ(r["timed_contacts"], 4);
-    EXPECT_GT(r["ns_batch_time"], 0);
-    EXPECT_FALSE(r.contains("broken")) << r;
-    EXPECT_TRUE(
-        lab::find_contacts(*data, kind::edge_edge, lab::sizes(true), 1, [](double) {}).empty());
-}
-
-TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {
-    write("vf/1.csv", std::string(hit) + miss);
-    const auto data = load();
-    const rows bounds = lab::take_bounds(*data, kind::vertex_face, lab::sizes(true));
-    ASSERT_FALSE(bounds.empty());
-    EXPECT_EQ(bounds.size() % 6, 0U);
-    for (const row& r : bounds) {
-        EXPECT_EQ(r["count"], 2);
-        EXPECT_EQ(r["unknown"], 0);
-        EXPECT_LE(r["q0"], r["q100"]);
-        EXPECT_GE(r["q0"], 0);
-        EXPECT_LT(r["relative_q100"], 1e-10) << r;
-    }
-}
-
-TEST_F(Report, MadeQueriesCollideAndDoNot) {
-    for (const auto& data : lab::made_data(1)) {
-        EXPECT_EQ(data->queries.vertex_face.queries.size(), data->queries.edge_edge.queries.size());
-        EXPECT_GT(data->queries.vertex_face.colliding, 100U);
-        EXPECT_GT(data->queries.edge_edge.colliding, 100U);
-        EXPECT_LT(data->queries.edge_edge.colliding + 100, data->queries.edge_edge.queries.size());
-    }
 }
 
 }  // namespace

@@ -94,13 +94,20 @@ int run(const std::vector<std::string>& arguments) {
     return ccd::study::rules_main<Rules...>(static_cast<int>(all.size()), all.data());
 }
 
+/// Writes a colliding query; `truth` follows each of its rows.
+void write_query(const std::filesystem::path& file, const std::string& truth = "") {
+    std::string text;
+    for (const char* row : {"0x1.3p-2,0.1,0.7", "0.1,-0.3,0", "1.3,0,0.1", "0.1,1.7,0",
+                            "0.23,0.1,-0.7", "0,-0.3,0", "1.3,0.1,0", "0,1.7,0.1"})
+        text += row + truth + '\n';
+    test_files::write(file, text);
+}
+
 /// The files of `ccd report`, with a method for each rule and number type.
 TEST(RulesMain, WritesCsvJsonAndPictures) {
     const test_files::temporary_directory folder;
     const std::string file = (folder.path / "vf.csv").string();
-    test_files::write(file,
-                      "0x1.3p-2,0.1,0.7\n0.1,-0.3,0\n1.3,0,0.1\n0.1,1.7,0\n"
-                      "0.23,0.1,-0.7\n0,-0.3,0\n1.3,0.1,0\n0,1.7,0.1\n");
+    write_query(file);
     const auto out = folder.path / "made" / "out";
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
@@ -123,9 +130,7 @@ TEST(RulesMain, WritesCsvJsonAndPictures) {
 TEST(RulesMain, ReadsFilesAndSaysWhatItMust) {
     const test_files::temporary_directory folder;
     const std::string file = (folder.path / "vf.csv").string();
-    test_files::write(file,
-                      "0x1.3p-2,0.1,0.7\n0.1,-0.3,0\n1.3,0,0.1\n0.1,1.7,0\n"
-                      "0.23,0.1,-0.7\n0,-0.3,0\n1.3,0.1,0\n0,1.7,0.1\n");
+    write_query(file);
     testing::internal::CaptureStdout();
     EXPECT_EQ((run<renamed, errbound::none>({file})), 0);
     const std::string text = testing::internal::GetCapturedStdout();
@@ -137,9 +142,7 @@ TEST(RulesMain, ReadsFilesAndSaysWhatItMust) {
     EXPECT_NE(testing::internal::GetCapturedStderr().find("no_vf.csv"), std::string::npos);
     // The stored answer contradicts that of the method, so its promise counts as broken.
     const std::string stored = (folder.path / "truth" / "vf.csv").string();
-    test_files::write(stored,
-                      "0x1.3p-2,0.1,0.7,0\n0.1,-0.3,0,0\n1.3,0,0.1,0\n0.1,1.7,0,0\n"
-                      "0.23,0.1,-0.7,0\n0,-0.3,0,0\n1.3,0.1,0,0\n0,1.7,0.1,0\n");
+    write_query(stored, ",0");
     EXPECT_EQ(run<renamed>({stored}), 1);
     EXPECT_EQ(run<errbound::none>({stored}), 0);
 }

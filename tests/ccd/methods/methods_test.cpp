@@ -1,5 +1,5 @@
-// The methods of the comparison: known lost collisions, answers that no method may give, and the
-// root finder of `provot`.
+// The methods of the comparison: known lost collisions, and the root finder of `provot`.
+// property_test has the promises of all methods, stress_test their answers for NaN and infinity.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <ccd/methods/provot.hpp>
 #include <ccd/methods/transform.hpp>
 #include <cmath>
-#include <cstddef>
 #include <errbound/roots/floating_roots.hpp>
 #include <limits>
 #include <random>
@@ -157,52 +156,6 @@ TEST(provot, in_float_as_in_double) {
     same(over_tilting_edge(-0.25, -2), outcome::collides);
     same(over_tilting_face(0.25, 0.5), outcome::separate);
     same(over_tilting_edge(0.25, 0.5), outcome::separate);
-}
-
-// ---- Wrong answers ----
-
-template <class Query>
-Query with_coordinate(Query query, std::size_t index, double value) {
-    std::size_t i = 0;
-    return ccd::transformed(query, [&](double x) { return i++ == index ? value : x; });
-}
-
-TEST(methods, coordinates_that_are_not_finite_are_uncertain) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto check = [](const auto& query) {
-        for (const ccd::method_info& m : ccd::methods()) {
-            for (const double value :
-                 {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
-                for (std::size_t i = 0; i < 24; ++i) {
-                    const ccd::verdict expected{outcome::uncertain, ccd::cause::range};
-                    EXPECT_EQ(decide(m.method, with_coordinate(query, i, value)), expected)
-                        << m.name << ", coordinate " << i << " = " << value;
-                }
-            }
-        }
-    };
-    check(over_tilting_face(-0.25, -2));
-    check(over_tilting_edge(-0.25, -2));
-}
-
-// If arithmetic overflows, an answer is right or uncertain.
-TEST(methods, overflow_is_no_answer) {
-    const auto check = [](const auto& query) {
-        for (const double factor : {0x1p+300, 0x1p+600, 0x1p+1019}) {
-            const auto large = ccd::transformed(query, [&](double x) { return x * factor; });
-            const outcome right = decide(method::exact, query).outcome;
-            EXPECT_EQ(decide(method::exact, large).outcome, right);
-            for (const method m :
-                 {method::provot, method::bsc_exact, method::safe, method::tight}) {
-                const outcome said = decide(m, large).outcome;
-                EXPECT_TRUE(said == right || said == outcome::uncertain) << ccd::info(m).name;
-            }
-        }
-    };
-    check(over_tilting_face(-0.25, -2));
-    check(over_tilting_face(0.25, 2));
-    check(over_tilting_edge(-0.25, -2));
-    check(over_tilting_edge(0.25, 2));
 }
 
 }  // namespace

@@ -1,13 +1,9 @@
 # Times, distances and free steps of the program `ccd`.
-# ERRBOUND_SHARED_DATA is the folder of stored scenes (optional).
 import json
-import os
-import pathlib
 import unittest
 
 from program_test import BASE, BEFORE, FACES, HIT, MISS, SOURCE, ProgramTest, ply, with_truth
 
-SCENES = pathlib.Path(os.environ["ERRBOUND_SHARED_DATA"]) / "scenes"
 TOUCHING = HIT.replace("1,4,1,4,1,1", "1,4,1,4,0,1")
 
 
@@ -186,14 +182,6 @@ class Advance(StepTest):
         frames = [SOURCE / "examples/scenes/cloth-over-ball" / f"frame{i}.ply" for i in (0, 1)]
         self.assertEqual(self.advance(*frames)["touching_at_start"], 26)
         self.advance(*frames, "--separation", "1e-4")
-
-    def test_stored_scenes(self):
-        for frames in ("cloth-funnel/frames/227.ply", "cloth-funnel/frames/228.ply"), \
-                ("cloth-ball/frames/cloth_ball92.ply", "cloth-ball/frames/cloth_ball93.ply"):
-            before, after = (SCENES / frame for frame in frames)
-            if not before.exists():
-                self.skipTest(f"no frames at {before}")
-            self.advance(before, after)
 
 
 if __name__ == "__main__":

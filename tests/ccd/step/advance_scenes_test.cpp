@@ -1,23 +1,16 @@
-// Steps to the positions of an advance are free: for stored scenes, and for meshes of the stiff and
-// extreme queries of `ccd stress`, some with contacts a last place apart. One scene is in the
-// repository.
+// Steps to the positions of an advance are free, for stored scenes. One scene is in the repository.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <ccd/io/mesh_file.hpp>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "ccd/lab/families.hpp"
 #include "tests/ccd/step/expect_advances.hpp"
-#include "tests/ccd/step/query_meshes.hpp"
 #include "tests/support/scaled.hpp"
 #include "tests/support/stored_data.hpp"
 
@@ -79,49 +72,8 @@ TEST(AdvanceOfScenes, OfTheRepository) {
 }
 
 TEST(AdvanceOfScenes, Stored) {
-    const fs::path scenes = stored_data::folder() / "scenes";
-    if (!fs::is_directory(scenes)) GTEST_SKIP() << stored_data::missing;
-    for (const auto& entry : fs::directory_iterator(scenes)) {
-        if (!entry.is_directory()) continue;
-        const auto frames = stored_data::files_in(entry.path(), ".ply");
-        ASSERT_EQ(frames.size(), 2u) << entry.path();
-        advance_scene(frames[0], frames[1]);
-    }
-}
-
-/// A mesh of queries of a family, of all kinds, at one value of its knob.
-two_frames mesh_of(const ccd::lab::family& family, double knob) {
-    two_frames at;
-    for (const ccd::kind which : {ccd::kind::vertex_face, ccd::kind::edge_edge,
-                                  ccd::kind::vertex_edge, ccd::kind::vertex_vertex})
-        for (std::uint64_t i = 0; i < 3; ++i)
-            brute_force::add_query(at, which, ccd::lab::make(family, knob, which, 1, i));
-    return at;
-}
-
-TEST(AdvanceOfScenes, OfStress) {
-    for (const ccd::lab::family& family : ccd::lab::families()) {
-        if (!family.finite) continue;
-        std::size_t free = 0, far = 0, held = 0;
-        double least = 1;
-        for (const double knob : family.knobs) {
-            SCOPED_TRACE(std::string(family.name) + " " + std::to_string(knob));
-            const two_frames at = mesh_of(family, knob);
-            const auto bodies =
-                ccd::connected_parts(at.first.faces, at.first.edges, at.first.vertices.size());
-            expect_free(at, {.groups = bodies});
-            const auto result = expect_free(at);
-            free += result.fraction == 1;
-            far += result.fraction < 1 && goes_far(result);
-            held += !goes_far(result);
-            least = std::min(least, result.fraction);
-        }
-        std::printf(
-            "%s: %zu free, %zu to 0.99 of the first contact or more, %zu less far; least "
-            "fraction %.3g\n",
-            std::string(family.name).c_str(), free, far, held, least);
-        EXPECT_LE(10 * held, family.knobs.size()) << "gaps of a few last places excuse few";
-    }
+    if (!stored_data::has_scenes()) GTEST_SKIP() << stored_data::missing;
+    stored_data::for_each_scene(advance_scene);
 }
 
 }  // namespace

@@ -12,6 +12,15 @@ inline void expect_same(const ccd::step_result& found, const ccd::step_result& e
     EXPECT_EQ(found.pairs, expected.pairs);
 }
 
+/// Compares pairs and times.
+template <class Found>
+void expect_same_results(const Found& found, const ccd::step_result& expected) {
+    EXPECT_EQ(found.pairs, expected.pairs);
+    EXPECT_EQ(found.times, expected.times);
+    EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
+    EXPECT_EQ(found.first_contact, expected.first_contact);
+}
+
 /// Expects the result of `run(options)` with and without counted candidates.
 template <class Run>
 void expect_both_ways(const ccd::step_result& expected, ccd::step_options options, const Run& run) {

@@ -296,6 +296,13 @@ ccd::mesh any_mesh(std::uint64_t seed) {
             mesh.vertices.push_back(maker.below(2) ? mesh.vertices[maker.index(n)]
                                                    : ccd::point<double>{0.5, 0.5, 0.25});
         }
+    if (seed % 11 == 0) {  // a sheet so far away that floats do not separate its elements
+        const auto first = static_cast<vertex_index>(mesh.vertices.size());
+        const ccd::mesh far = maker.sheet();
+        for (const auto& p : far.vertices) mesh.vertices.push_back({p.x + 0x1p40, p.y, p.z});
+        for (const face& f : far.faces)
+            mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+    }
     constexpr double scales[] = {1, 1, 1, 0x1p-500, 0x1p500, 0x1p-1060};
     const double scale = scales[seed % 6];
     for (auto& p : mesh.vertices) p = {p.x * scale, p.y * scale, p.z * scale};
@@ -304,6 +311,7 @@ ccd::mesh any_mesh(std::uint64_t seed) {
 
 TEST(Intersections, AreThoseOfEveryTwoElements) {
     std::map<std::pair<ccd::intersection_kind, relation>, std::size_t> numbers;
+    std::size_t free = 0;
     for (std::uint64_t seed = 1; seed <= 10'000; ++seed) {
         const ccd::mesh mesh = any_mesh(seed);
         const found_pairs expected = expected_pairs(mesh);
@@ -315,8 +323,10 @@ TEST(Intersections, AreThoseOfEveryTwoElements) {
         ASSERT_EQ(listed(ccd::intersections(mesh, {.threads = 1, .set = set}).pairs), expected)
             << seed << ' ' << name(set);
         ASSERT_EQ(ccd::is_free_of_intersections(mesh), expected.empty()) << seed;
+        free += expected.empty();
         for (const auto& [kind, a, b, r] : expected) ++numbers[{kind, r}];
     }
+    EXPECT_GT(free, 1500U);
     for (const auto k :
          {ccd::intersection_kind::face_face, ccd::intersection_kind::edge_face,
           ccd::intersection_kind::vertex_face, ccd::intersection_kind::edge_edge,
@@ -381,13 +391,6 @@ TEST(Intersections, HaveAFilterThatIsNeverWrong) {
         EXPECT_GT(disjoint, pairs / 6);
         EXPECT_GT(crossing, pairs / 50);
     }
-}
-
-TEST(Intersections, AreThoseOfAMeshWithoutIntersections) {
-    std::size_t free = 0;
-    for (std::uint64_t seed = 1; seed <= 2000; ++seed)
-        free += ccd::is_free_of_intersections(any_mesh(seed));
-    EXPECT_GT(free, 300U);
 }
 
 TEST(Intersections, InThePlane) {
@@ -499,47 +502,8 @@ TEST(Intersections, WithEqualPositionsMerged) {
     }
 }
 
-/// Small parts so far apart that floats do not separate them.
-TEST(Intersections, OfPartsFarApart) {
-    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-        ccd::mesh all;
-        std::size_t pairs = 0;
-        for (std::uint64_t part = 0; part < 4; ++part) {
-            ccd::mesh mesh = mesh_maker(4 * seed + part).sheet();
-            for (auto& p : mesh.vertices) p = {p.x + double(part) * 0x1p40, p.y, p.z};
-            pairs += ccd::intersections(mesh).counts.total();
-            const auto first = static_cast<vertex_index>(all.vertices.size());
-            all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-            for (const face& f : mesh.faces)
-                all.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
-        }
-        const auto found = ccd::intersections(all);
-        ASSERT_EQ(found.pairs.size(), pairs) << seed;
-        if (seed % 10 == 0) {
-            ASSERT_EQ(listed(found.pairs), expected_pairs(all));
-        }
-    }
-}
-
 const ccd::mesh pierced{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {1.5, 1, 1}},
                         {{0, 1, 2}, {3, 4, 5}}};
-
-TEST(Intersections, OfPiercedTrianglesAreFoundAtTheStartOfAStep) {
-    ccd::mesh after = pierced;
-    for (auto& p : after.vertices) p.z += 3;
-    const found_pairs expected{
-        {ccd::intersection_kind::face_face, {3, {0, 1, 2}}, {3, {3, 4, 5}}, relation::crossing}};
-    EXPECT_EQ(listed(ccd::intersections(pierced).pairs), expected);
-    ccd::step_options options;
-    options.check_start = true;
-    const auto found = ccd::step(pierced, after, options);
-    EXPECT_EQ(number_of(found.pairs), 0U);
-    EXPECT_EQ(listed(found.intersections_at_start), expected);
-    const auto advanced = ccd::advance(pierced, after, {.check_start = true});
-    EXPECT_EQ(advanced.fraction, 1);
-    EXPECT_EQ(listed(advanced.intersections_at_start), expected);
-    EXPECT_FALSE(ccd::is_free_of_intersections(pierced));
-}
 
 TEST(Intersections, HaveTheEndsOfTheCommonSegment) {
     const auto found = ccd::intersections(pierced, {.edge_faces = true});

@@ -86,16 +86,6 @@ inline const shape shapes[] = {
          constexpr double most = std::numeric_limits<double>::max();
          return ccd::moving_point<double>{in_cube(random, most), in_cube(random, most)};
      }},
-    {"Large",
-     [](auto& random, unsigned patch) {
-         generator of_patch(patch);
-         const auto p = in_cube(of_patch, 1e300) + in_cube(random, 1e299);
-         return ccd::moving_point<double>{p, p};
-     }},
-    {"Tiny",
-     [](auto& random, unsigned) {
-         return ccd::moving_point<double>{in_cube(random, 1e-310), in_cube(random, 1e-310)};
-     }},
     {"FewUlpsOfTheLeast",
      [](auto& random, unsigned) {
          constexpr double least = std::numeric_limits<double>::denorm_min();

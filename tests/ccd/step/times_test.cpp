@@ -38,45 +38,33 @@ struct timed {
 };
 
 TEST(StepTimes, AreThoseOfEachPair) {
-    for (const unsigned seed : {1U, 2U, 3U}) {
-        const auto at = random_mixture(seed);
-        const auto plain = ccd::step(at.first, at.second, {.count_candidates = true});
-        const timed expected(at, plain.pairs, 0);
-        for (const int threads : {1, 3}) {
-            const auto found = ccd::step(at.first, at.second, {.threads = threads, .times = true});
-            brute_force::expect_both_ways(
-                plain, {.threads = threads, .times = true},
-                [&](const auto& options) { return ccd::step(at.first, at.second, options); });
-            EXPECT_EQ(found.times, expected.times);
-            EXPECT_EQ(found.first_contact, expected.first);
-            EXPECT_EQ(found.touching_at_start, expected.at_start);
-            const auto first =
-                ccd::step(at.first, at.second, {.threads = threads, .first_contact = true});
-            EXPECT_EQ(first.times, ccd::time_lists());
-            EXPECT_EQ(first.first_contact, expected.first);
-            EXPECT_EQ(first.touching_at_start, expected.at_start);
-        }
-    }
-}
-
-TEST(StepTimes, AreNotAfterTheLast) {
-    const auto at = brute_force::random_soup(4, 40, 30);
-    const auto whole = ccd::step(at.first, at.second, {.times = true});
-    const auto part = ccd::step(at.first, at.second, {.times = true, .t_max = 0.5});
-    std::size_t fewer = 0;
-    ccd::for_each_kind([&]<ccd::kind K>() {
-        std::size_t next = 0;
-        for (std::size_t i = 0; i < whole.pairs.of<K>().size(); ++i)
-            if (whole.times.of<K>()[i].high <= 0.5) {
-                ASSERT_LT(next, part.pairs.of<K>().size());
-                EXPECT_EQ(part.pairs.of<K>()[next], whole.pairs.of<K>()[i]);
-                EXPECT_EQ(part.times.of<K>()[next++], whole.times.of<K>()[i]);
+    for (const unsigned seed : {1U, 2U, 3U})
+        for (const double distance : {0.0, 0x1p-1074, 0.125, 1.0}) {
+            const auto at = random_mixture(seed);
+            const auto plain = brute_force::step(at, brute_force::by_distance{distance});
+            const timed expected(at, plain.pairs, distance);
+            ccd::step_options options{.distances = {distance}};
+            const auto run = [&] { return ccd::step(at.first, at.second, options); };
+            EXPECT_EQ(run().first_contact, first_time());
+            options.initial_contact = true;
+            EXPECT_EQ(run().touching_at_start, expected.at_start);
+            for (options.threads = 1; options.threads < 4; options.threads += 2) {
+                options.times = false;
+                options.first_contact = true;
+                const auto first = run();
+                EXPECT_EQ(first.times, ccd::time_lists());
+                EXPECT_EQ(first.first_contact, expected.first);
+                EXPECT_EQ(first.touching_at_start, expected.at_start);
+                options.times = true;
+                const auto found = run();
+                EXPECT_EQ(found.pairs, plain.pairs);
+                EXPECT_EQ(found.times, expected.times);
+                EXPECT_EQ(found.first_contact, expected.first);
+                EXPECT_EQ(found.touching_at_start, expected.at_start);
             }
-        EXPECT_EQ(next, part.pairs.of<K>().size());
-        fewer += whole.pairs.of<K>().size() - next;
-    });
-    EXPECT_GT(fewer, 0U);
-    EXPECT_EQ(ccd::step(at.first, at.second, {.t_max = 0.5}).pairs, part.pairs);
+            options.count_candidates = true;
+            brute_force::expect_same(run(), plain);
+        }
 }
 
 ccd::pair_lists pairs_with(const ccd::first_time& time, const ccd::pair_lists& pairs,
@@ -101,6 +89,8 @@ TEST(StepTimes, UntilAnyTimeAreThoseOfTheWholeStep) {
                 for (const double t : {times[i].low, times[i].high})
                     until.insert(until.end(), {std::nextafter(t, 0.0), t, std::nextafter(t, 1.0)});
         });
+        EXPECT_EQ(ccd::step(at.first, at.second, {.t_max = 0.5}).pairs,
+                  ccd::step(at.first, at.second, {.times = true, .t_max = 0.5}).pairs);
         for (const double t_max : until)
             for (const ccd::instruction_set set : ccd::instruction_sets()) {
                 if (t_max >= 1) continue;
@@ -138,31 +128,6 @@ TEST(StepTimes, UntilAnyTimeAreThoseOfTheWholeStep) {
     expect_all(random_mixture(5), "mixture");
     for (const auto& shape : nasty_shapes::shapes)
         expect_all(nasty_shapes::triangles(shape, 3), shape.name);
-}
-
-TEST(StepTimes, AreAskedForOnlyWhereWanted) {
-    const auto at = random_mixture(4);
-    const auto result = ccd::step(at.first, at.second, {.initial_contact = true});
-    EXPECT_EQ(result.times, ccd::time_lists());
-    EXPECT_EQ(result.first_contact, first_time());
-}
-
-TEST(StepDistances, FindPairsThatOnlyWiderBoxesFind) {
-    for (const unsigned seed : {1U, 2U})
-        for (const double distance : {0x1p-1074, 0.125, 1.0}) {
-            const auto at = random_mixture(seed);
-            const auto expected = brute_force::step(at, brute_force::by_distance{distance});
-            const timed times(at, expected.pairs, distance);
-            const auto found =
-                ccd::step(at.first, at.second, {.times = true, .distances = {distance}});
-            EXPECT_EQ(found.pairs, expected.pairs);
-            EXPECT_EQ(found.times, times.times);
-            EXPECT_EQ(found.touching_at_start, times.at_start);
-            EXPECT_EQ(found.first_contact, times.first);
-            const auto start =
-                ccd::step(at.first, at.second, {.initial_contact = true, .distances = {distance}});
-            EXPECT_EQ(start.touching_at_start, times.at_start);
-        }
 }
 
 TEST(StepDistances, OfThicknessesAreThoseOfTheThickestVertices) {

@@ -55,13 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto which = static_cast<ccd::kind>(from.below(4));
     // t_max is in eighths, also above 1, or any number, or 1.
     const std::size_t end = from.below(18);
-    // Axis by axis, so that copies of earlier numbers are on the same axis.
-    points p{};
-    for (const auto axis : {&ccd::point<double>::x, &ccd::point<double>::y, &ccd::point<double>::z})
-        for (auto& m : p) {
-            m.t0.*axis = from.next();
-            m.t1.*axis = from.next();
-        }
+    const auto p = fuzz::points_from<points>(from);
     const double first = std::abs(from.next()), second = std::abs(from.next());
     const double t_max = end < 10 ? static_cast<double>(end) / 8 : end < 14 ? from.next() : 1;
     ccd::visit_kind(which, [&]<ccd::kind K>() { check<K>(p, {first, second}, t_max); });

@@ -10,15 +10,11 @@
 #include <random>
 #include <vector>
 
+#include "tests/ccd/cuda/emulator/ptx.hpp"
+
 namespace {
 
-using u16 = std::uint16_t;
-using u32 = std::uint32_t;
-using u64 = std::uint64_t;
-using s8 = std::int8_t;
-using s16 = std::int16_t;
-using s32 = std::int32_t;
-using s64 = std::int64_t;
+using namespace ptx;
 __extension__ typedef __int128 s128;
 __extension__ typedef unsigned __int128 u128;
 

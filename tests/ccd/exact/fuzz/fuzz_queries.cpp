@@ -82,13 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::numbers from(data, size);
     const auto which = static_cast<ccd::kind>(from.below(4));
     const std::size_t copies = 1 + from.below(17);
-    // Axis by axis, so that the input's copies of earlier numbers stay on one axis.
-    points p{};
-    for (const auto axis : {&ccd::point<double>::x, &ccd::point<double>::y, &ccd::point<double>::z})
-        for (auto& m : p) {
-            m.t0.*axis = from.next();
-            m.t1.*axis = from.next();
-        }
+    const auto p = fuzz::points_from<points>(from);
     ccd::visit_kind(which, [&]<ccd::kind K>() { check<K>(p, copies); });
     return 0;
 }

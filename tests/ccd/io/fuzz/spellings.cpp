@@ -16,7 +16,8 @@ namespace {
 /// Choices by bytes, one after the other; zeros after the last.
 class choices {
   public:
-    explicit choices(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+    choices(std::span<const std::uint8_t> bytes, dialect d)
+        : bytes_(bytes), whole_(d == dialect::whole) {}
 
     unsigned below(unsigned end) {
         if (bytes_.empty()) return 0;
@@ -24,9 +25,14 @@ class choices {
         bytes_ = bytes_.subspan(1);
         return chosen;
     }
-    const char* one_of(std::initializer_list<const char*> texts) {
-        return texts.begin()[below(static_cast<unsigned>(texts.size()))];
+    /// One of the common texts or, in the whole format, one of the others.
+    const char* one_of(std::initializer_list<const char*> common,
+                       std::initializer_list<const char*> others = {}) {
+        const auto size = static_cast<unsigned>(common.size());
+        const unsigned i = below(size + (whole_ ? static_cast<unsigned>(others.size()) : 0));
+        return i < size ? common.begin()[i] : others.begin()[i - size];
     }
+    bool whole() const { return whole_; }
     /// A finite number; a float's value if `narrow`.
     double coordinate(bool narrow) {
         std::uint64_t bits = 0;
@@ -38,6 +44,7 @@ class choices {
 
   private:
     std::span<const std::uint8_t> bytes_;
+    bool whole_;
 };
 
 mesh some_mesh(choices& choose, bool narrow) {
@@ -63,7 +70,7 @@ std::string spelled(choices& choose, double x, bool narrow) {
         return std::string(digits.begin(), end.ptr);
     };
     std::string text;
-    switch (choose.below(5)) {
+    switch (choose.below(choose.whole() ? 5 : 4)) {
         case 0:
             return written();
         case 1:
@@ -73,11 +80,11 @@ std::string spelled(choices& choose, double x, bool narrow) {
         case 2:
             return written(std::chars_format::fixed);
         case 3:
-            text = written(std::chars_format::hex);
-            return text.insert(text.starts_with('-') ? 1 : 0, choose.one_of({"0x", "0X", "0x000"}));
-        default:
             text = written();
             return std::signbit(x) ? text : "+" + text;
+        default:
+            text = written(std::chars_format::hex);
+            return text.insert(text.starts_with('-') ? 1 : 0, choose.one_of({"0x", "0X", "0x000"}));
     }
 }
 
@@ -88,7 +95,7 @@ class obj_writer {
         : choose_(choose), mesh_(m), end_(choose.one_of({"\n", "\r\n", "\r"})) {}
 
     std::string text() {
-        text_ = choose_.one_of({"", "\xef\xbb\xbf"});
+        text_ = choose_.one_of({""}, {"\xef\xbb\xbf"});
         const bool faces_first = choose_.below(2) == 1;
         if (faces_first) add_elements(false);
         for (const auto& p : mesh_.vertices) {
@@ -109,7 +116,7 @@ class obj_writer {
                 end_line("");
             }
         };
-        add_all(mesh_.faces, choose_.one_of({"f", "fo"}));
+        add_all(mesh_.faces, choose_.one_of({"f"}, {"fo"}));
         add_all(mesh_.edges, "l");
     }
 
@@ -117,18 +124,18 @@ class obj_writer {
         const auto vertices = static_cast<std::int64_t>(mesh_.vertices.size());
         const bool back = may_count_back && choose_.below(2) == 1;
         return std::to_string(back ? i - vertices : std::int64_t{i} + 1) +
-               choose_.one_of({"", "/7", "//-1", "/1/1", "/", "/1/"});
+               choose_.one_of({"", "/7", "//-1", "/1/1"}, {"/", "/1/"});
     }
 
     void add(const std::string& word) {
         text_ += word;
-        text_ += choose_.one_of({" ", "\t", "  "});
-        if (choose_.below(16) == 1) text_ += "\\" + end_;
+        text_ += choose_.one_of({" ", "\t"}, {"  "});
+        if (choose_.whole() && choose_.below(16) == 1) text_ += "\\" + end_;
     }
     void end_line(const char* more) {
         text_ += more;
-        text_ += choose_.one_of({"", " ", " # v 1 2 3", " #\xff\\"}) + end_;
-        text_ += choose_.one_of({"", "", "", "# v 9 9 9", "\t", "o f 1 2 3", "vn 0 0 1", "g a#"});
+        text_ += choose_.one_of({"", " "}, {" # v 1 2 3", " #\xff\\"}) + end_;
+        text_ += choose_.one_of({"", "", "", "# v 9 9 9", "\t", "o f 1 2 3", "vn 0 0 1"}, {"g a#"});
         if (text_.back() != end_.back()) text_ += end_;
     }
 
@@ -145,8 +152,8 @@ class ply_writer {
 
     std::string text() {
         const char* const formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
-        const char* const end = choose_.one_of({"\n", "\r\n", "\r"});
-        header_ = choose_.one_of({"ply\n", "\xef\xbb\xbfply\n"});
+        const char* const end = choose_.one_of({"\n", "\r\n"}, {"\r"});
+        header_ = choose_.one_of({"ply\n"}, {"\xef\xbb\xbfply\n"});
         header_ += std::string("format ") + formats[format_] + " 1.0\n";
         const bool vertices_last = choose_.below(2) == 1;
         if (!vertices_last) add_vertices();
@@ -201,7 +208,7 @@ class ply_writer {
 
     void add_faces() {
         const std::string type =
-            choose_.one_of({"ushort", "int", "uint32", "char", "uint", "int16", "uint16"});
+            choose_.one_of({"int", "uint32", "uint"}, {"ushort", "char", "int16", "uint16"});
         const std::string count = choose_.one_of({"uchar", "int8", "int"});
         header_ += "element face " + std::to_string(mesh_.faces.size()) + "\nproperty list " +
                    count + " " + type + " " + choose_.one_of({"vertex_indices", "vertex_index"}) +
@@ -243,14 +250,14 @@ class ply_writer {
 
 }  // namespace
 
-spelling spelled_obj(std::span<const std::uint8_t> bytes) {
-    choices choose(bytes);
-    const mesh m = some_mesh(choose, false);
+spelling spelled_obj(std::span<const std::uint8_t> bytes, dialect d) {
+    choices choose(bytes, d);
+    const mesh m = some_mesh(choose, d == dialect::common);
     return {m, obj_writer(choose, m).text()};
 }
 
-spelling spelled_ply(std::span<const std::uint8_t> bytes) {
-    choices choose(bytes);
+spelling spelled_ply(std::span<const std::uint8_t> bytes, dialect d) {
+    choices choose(bytes, d);
     const bool narrow = choose.below(2) == 1;
     const mesh m = some_mesh(choose, narrow);
     return {m, ply_writer(choose, m, narrow).text()};

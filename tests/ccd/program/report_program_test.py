@@ -1,20 +1,12 @@
-# Tests of `ccd report` as users run it: output files, resumption after a stop, exit statuses. The environment variable
-# CCD_PROGRAM has the path to the program.
+# Tests of `ccd report` as users run it: output files, resumption after a stop, exit statuses.
 import csv
 import os
-import pathlib
 import struct
 import subprocess
-import tempfile
 import unittest
 
-PROGRAM = os.environ["CCD_PROGRAM"]
+from program_test import AFTER, BEFORE, FACES, PROGRAM, ProgramTest, obj
 
-# A triangle, and another that falls through it.
-BASE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
-FACES = "f 1 2 3\nf 4 5 6\n"
-BEFORE = BASE + "v 0.2 0.2 1\nv 0.4 0.2 1.125\nv 0.2 0.4 1.25\n" + FACES
-AFTER = BASE + "v 0.2 0.2 -1\nv 0.4 0.2 -0.875\nv 0.2 0.4 -0.75\n" + FACES
 # A vertex that falls through a triangle.
 HIT = ["0.25,0.25,1", "0,0,0", "1,0,0", "0,1,0", "0.25,0.25,-1", "0,0,0", "1,0,0", "0,1,0"]
 
@@ -22,21 +14,17 @@ HAVE_MATPLOTLIB = subprocess.run(["/usr/bin/python3", "-c", "import matplotlib"]
                                  capture_output=True, check=False).returncode == 0
 
 
-class Report(unittest.TestCase):
+class Report(ProgramTest):
     def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.directory = pathlib.Path(directory.name)
+        super().setUp()
         self.data, self.out = self.directory / "data", self.directory / "out"
-        self.write("falling/frame0.obj", BEFORE)
-        self.write("falling/frame1.obj", AFTER)
+        self.write("falling/frame0.obj", obj(BEFORE, FACES))
+        self.write("falling/frame1.obj", obj(AFTER, FACES))
         # Pictures take seconds, so only their tests draw them.
         self.write("../no/matplotlib.py", "raise ImportError")
 
     def write(self, name, text):
-        path = self.data / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
+        return super().write(f"data/{name}", text)
 
     def report(self, *arguments, sections="methods,times,bounds", pictures=False, status=0):
         environment = dict(os.environ)
@@ -82,11 +70,14 @@ class Report(unittest.TestCase):
                          {"Y(0)", "Y(1)", "Y'(0)", "Y'(1)", "Y''(0)", "Y''(1)"})
 
     def test_first_contacts(self):
-        self.write("hits/vertex-face/1.csv", "".join(f"{line},1\n" for line in HIT))
+        # The vertex touches at 1/2, at 1/3, never, or at the start.
+        miss, third = ([*HIT[:4], f"0.25,0.25,{z}", *HIT[5:]] for z in (0.5, -2))
+        self.write("hits/vertex-face/1.csv", "\n".join([*HIT, *third, *miss, "0.25,0.25,0", *HIT[1:], *HIT]) + "\n")
         self.report(self.data, sections="contacts")
         rows = {(r["data_set"], r["kind"]): r for r in self.table("contacts.csv")}
         counts = ("queries", "contacts", "at_start", "one_double", "neighbours")
-        self.assertEqual([rows["hits", "vf"][c] for c in counts], ["1", "1", "0", "1", "0"])
+        self.assertEqual([rows["hits", "vf"][c] for c in counts], ["5", "4", "1", "2", "1"])
+        self.assertEqual(float(rows["hits", "vf"]["width_largest"]), 2.0**-54)
         self.assertEqual([rows["falling", "vf"][c] for c in counts[:2]], ["3", "3"])
         for r in rows.values():
             self.assertEqual(sum(int(r[c]) for c in counts[2:]), int(r["contacts"]))
@@ -125,7 +116,7 @@ class Report(unittest.TestCase):
         kept = sum("errors_of_exact" in name or "bounds" in name for name in first)
         self.assertEqual(resumed(self.report(self.data, "--method", "exact")), str(kept))
         # With other data nothing is kept.
-        self.write("falling/frame1.obj", AFTER.replace("-0.75", "-0.7"))
+        self.write("falling/frame1.obj", obj([*AFTER[:-1], (0.2, 0.4, -0.7)], FACES))
         self.assertEqual(resumed(self.report(*arguments)), "0")
 
     def test_broken_promise(self):
@@ -197,4 +188,5 @@ class Report(unittest.TestCase):
         self.assertTrue((self.out / "tightness.png").exists())
 
 
-unittest.main()
+if __name__ == "__main__":
+    unittest.main()
