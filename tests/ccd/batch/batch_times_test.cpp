@@ -137,23 +137,6 @@ TYPED_TEST(FirstTimes, WithinADistanceOfWhatIsNotFiniteAreUncertain) {
     }
 }
 
-/// The distance of a pair is the exact sum of two thicknesses; 1 + 2^-60 is not a double.
-TEST(FirstTimesOf, ThicknessesAreAddedExactly) {
-    const std::vector<ccd::point<double>> before{{0, 0, 0}, {1, 0, 0}}, after = before;
-    const ccd::vertex_rows rows(before, after);
-    const std::vector<ccd::vertex_vertex_pair> pairs{{0, 1}};
-    const auto touches = [&](double first, double second) {
-        const std::vector<double> thickness{first, second};
-        const ccd::time_options options{.distances = {0, thickness}};
-        return ccd::first_times(rows, pairs, options)[0].at_start();
-    };
-    EXPECT_TRUE(touches(1, 0));
-    EXPECT_TRUE(touches(0.5, 0.5));
-    EXPECT_FALSE(touches(0.5, std::nextafter(0.5, 0.0)));
-    EXPECT_FALSE(touches(std::nextafter(1.0, 0.0), 0x1p-60));
-    EXPECT_TRUE(touches(std::nextafter(1.0, 0.0), 0x1p-53));
-}
-
 TEST(FirstTimesOf, RefuseWhatIsNoQuestion) {
     const auto before = grid(9);
     const ccd::vertex_rows rows(before, before);

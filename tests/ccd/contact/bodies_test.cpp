@@ -460,6 +460,7 @@ TEST(random_body_queries, pass_filters_that_agree_with_the_oracle) {
     for (const int count : {all.axes, all.far, all.separate, all.collides}) EXPECT_GT(count, 0);
 }
 
+using support::position_at;
 using support::rational;
 
 /// Checks the bound of ccd/contact/turning/chords.cpp at a time, as a share of the interval between

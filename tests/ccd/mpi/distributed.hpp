@@ -46,32 +46,24 @@ inline scene few_corners(std::mt19937& random, std::size_t vertices, std::size_t
 }
 
 /// Random triangles, rods and points in the unit cube. `length` is the largest motion on each axis.
+/// Every third vertex lies anywhere, and the next two near it, so that the boxes of faces are
+/// small.
 inline scene soup(std::mt19937& random, std::size_t vertices, double length) {
-    std::uniform_real_distribution<double> place(0, 1), move(-length, length);
-    const auto vertex = [&] { return static_cast<ccd::vertex_index>(random() % vertices); };
+    std::uniform_real_distribution<double> place(0, 1), near(-0.1, 0.1), move(-length, length);
+    const auto moved = [&](const ccd::point<double>& p, auto& by) -> ccd::point<double> {
+        return {p.x + by(random), p.y + by(random), p.z + by(random)};
+    };
     scene s{"soup of " + std::to_string(vertices), {}, {}};
     for (std::size_t v = 0; v < vertices; ++v) {
-        s.before.vertices.push_back({place(random), place(random), place(random)});
-        const auto& p = s.before.vertices.back();
-        s.after.vertices.push_back({p.x + move(random), p.y + move(random), p.z + move(random)});
+        s.before.vertices.push_back(v % 3 == 0 ? moved({}, place)
+                                               : moved(s.before.vertices[v / 3 * 3], near));
+        s.after.vertices.push_back(moved(s.before.vertices.back(), move));
     }
     for (std::size_t i = 0; i < vertices / 3; ++i) {
-        // Corners are near one another, so that boxes are small.
-        const ccd::vertex_index a = vertex();
-        const auto near = [&] {
-            ccd::vertex_index best = vertex();
-            const auto far = [&](ccd::vertex_index v) {
-                const auto &p = s.before.vertices[a], &q = s.before.vertices[v];
-                return std::abs(p.x - q.x) + std::abs(p.y - q.y) + std::abs(p.z - q.z);
-            };
-            for (int k = 0; k < 60; ++k) {
-                const ccd::vertex_index v = vertex();
-                if (v != a && (best == a || far(v) < far(best))) best = v;
-            }
-            return best;
-        };
-        s.before.faces.push_back({a, near(), near()});
-        if (i % 4 == 0) s.before.edges.push_back({vertex(), near()});
+        const auto a = static_cast<ccd::vertex_index>(random() % (vertices - 2));
+        s.before.faces.push_back({a, a + 1, a + 2});
+        if (i % 4 == 0)
+            s.before.edges.push_back({static_cast<ccd::vertex_index>(random() % vertices), a});
     }
     s.after.faces = s.before.faces;
     s.after.edges = s.before.edges;

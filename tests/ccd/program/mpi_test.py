@@ -1,14 +1,12 @@
 # Compares the program CCD_MPI_PROGRAM on several ranks with `ccd step`. MPIEXEC and MPIEXEC_NUMPROC_FLAG
-# run it. ERRBOUND_SHARED_DATA is the folder of stored scenes (optional).
+# run it.
 import json
 import os
-import pathlib
 import subprocess
 import unittest
 
 from program_test import AFTER, BEFORE, FACES, SOURCE, ProgramTest, obj, ply
 
-SCENES = pathlib.Path(os.environ["ERRBOUND_SHARED_DATA"]) / "scenes"
 RANKS = (1, 2, 3, 5)
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
@@ -48,14 +46,6 @@ class DistributedStep(ProgramTest):
 
     def test_bundled_scene(self):
         self.expect_same(*sorted((SOURCE / "examples/scenes/cloth-over-ball").glob("*.ply")))
-
-    @unittest.skipUnless(SCENES.is_dir(), "skipped: no stored scenes")
-    def test_stored_scenes(self):
-        for folder in sorted(SCENES.iterdir()):
-            frames = sorted(folder.glob("frames/*.ply"), key=lambda f: (len(f.name), f.name))
-            for before, after in zip(frames, frames[1:]):
-                with self.subTest(before=before.name):
-                    self.expect_same(before, after)
 
     def test_errors_are_reported_once(self):
         a = self.write("a.ply", ply(BEFORE, FACES))

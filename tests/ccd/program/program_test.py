@@ -170,12 +170,6 @@ class Query(ProgramTest):
         self.write("s/mma_bool/1vf_mma_bool.json", "[true,true]")
         self.bad_input("number of truth values is 2; expected 1", "query", self.write("s/queries/1vf.csv", HIT))
 
-    def test_failed_run_keeps_the_old_output(self):
-        out = self.write("out", "old\n")
-        done = self.run_program("query", self.write("vf.csv", HIT + "x"), "--json", out)
-        self.assertEqual(done.returncode, 1)
-        self.assertEqual(pathlib.Path(out).read_text(), "old\n")
-
     def test_one_output_by_two_names(self):
         file = self.write("vf.csv", HIT)
         out = self.directory / "folder" / "out"
