@@ -5,9 +5,10 @@ import os
 import pathlib
 import re
 import subprocess
-import tempfile
 import unittest
 from xml.etree import ElementTree
+
+from program import ProgramTest
 
 PROGRAM = os.environ["ERRBOUND_PROGRAM"]
 EXAMPLE = os.environ["ERRBOUND_EXAMPLE"]
@@ -29,23 +30,13 @@ def bars(picture):
     return [title for title in titles if float(re.search(r": (\d+\.\d) %", title)[1]) >= 1]
 
 
-class Explain(unittest.TestCase):
+class Explain(ProgramTest):
+    command = [PROGRAM, "explain"]
+
     def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.directory = pathlib.Path(directory.name)
+        super().setUp()
         self.file = self.directory / "variance.json"
         self.printed = subprocess.run([EXAMPLE, self.file], capture_output=True, text=True, check=True).stdout
-
-    def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, "explain", *map(str, arguments)], capture_output=True, text=True,
-                              timeout=300, **options)
-
-    def good(self, *arguments, **options):
-        done = self.run_program(*arguments, **options)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr, "")
-        return done.stdout
 
     def test_the_table_is_the_programs_own(self):
         results = json.loads(self.file.read_text())["results"]

@@ -5,13 +5,10 @@ import fractions
 import json
 import math
 import os
-import pathlib
 import random
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = os.environ["ERRBOUND_PROGRAM"]
+from program import ProgramTest
 
 INTERVALS = """/* Intervals: a comment
    of two lines */
@@ -65,11 +62,10 @@ def fixtures(name, count, dimension, points, lifted):
     return "\n".join(lines) + "\n"
 
 
-class Conformance(unittest.TestCase):
+class Conformance(ProgramTest):
     def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.folder = pathlib.Path(directory.name) / "sets"
+        super().setUp()
+        self.folder = self.directory / "sets"
         self.folder.mkdir()
 
     def write(self, name, text):
@@ -79,8 +75,8 @@ class Conformance(unittest.TestCase):
         return path
 
     def run_program(self, *arguments):
-        return subprocess.run([PROGRAM, "conformance", str(self.folder), *map(str, arguments)],
-                              capture_output=True, text=True, timeout=300)
+        self.command = [os.environ["ERRBOUND_PROGRAM"], "conformance", self.folder]
+        return super().run_program(*arguments)
 
     def found(self, *arguments, status=0):
         out = self.folder.parent / "out.json"

@@ -3,12 +3,9 @@
 import csv
 import json
 import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = os.environ["ERRBOUND_PROGRAM"]
+from program import ProgramTest
 
 CORES = """
 ; A comment (with a bracket
@@ -29,23 +26,13 @@ CORES = """
 """
 
 
-class Ranges(unittest.TestCase):
+class Ranges(ProgramTest):
+    command = [os.environ["ERRBOUND_PROGRAM"], "ranges", "--samples", "4000", "--boxes", "3000"]
+
     def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.directory = pathlib.Path(directory.name)
+        super().setUp()
         self.cores = self.directory / "cores.fpcore"
         self.cores.write_text(CORES)
-
-    def run_program(self, *arguments):
-        return subprocess.run([PROGRAM, "ranges", "--samples", "4000", "--boxes", "3000",
-                               *map(str, arguments)], capture_output=True, text=True, timeout=300)
-
-    def good(self, *arguments):
-        done = self.run_program(*arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr, "")
-        return done.stdout
 
     def test_bounds_as_table_json_csv_and_picture(self):
         out, table, picture = (self.directory / name for name in ["o.json", "o.csv", "o.svg"])

@@ -3,31 +3,19 @@
 import csv
 import json
 import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 from collections import Counter
 
-PROGRAM = os.environ["ERRBOUND_PROGRAM"]
+from program import ProgramTest
 
 
-class Validate(unittest.TestCase):
-    def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.directory = pathlib.Path(directory.name)
-
-    def run_program(self, *arguments):
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
-                              timeout=300)
+class Validate(ProgramTest):
+    command = [os.environ["ERRBOUND_PROGRAM"]]
 
     def good(self, *arguments):
-        done = self.run_program("validate", *arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr, "")
-        self.assertTrue(done.stdout.endswith("\nno violations\n"), done.stdout)
-        return done.stdout
+        text = super().good("validate", *arguments)
+        self.assertTrue(text.endswith("\nno violations\n"), text)
+        return text
 
     def test_expressions_as_table_json_and_csv(self):
         out, table = self.directory / "out.json", self.directory / "out.csv"
