@@ -130,27 +130,34 @@ state run(state from, const run_options& options, const part& what, const std::a
     const clock::time_point start = clock::now();
     const std::uint64_t first = what.blocks_for(from.first);
     findings sum = from.found;
-    errbound::support::ordered_blocks<findings> blocks(
-        sum.blocks, options.blocks, options.threads,
-        [&](std::uint64_t block) { return what.compare_block(from.seed, first + block); },
-        [&](const findings& next) { sum.add(next); }, stop);
     const auto now = [&] {
-        return state{from.seed, from.first, blocks.between_merges([&](auto) { return sum; }),
-                     from.seconds + seconds_since(start)};
+        return state{from.seed, from.first, sum, from.seconds + seconds_since(start)};
     };
     clock::time_point saved = start;
-    while (!blocks.finished_within(std::chrono::milliseconds(100))) {
+    const auto merge = [&](const findings& next) {
+        sum.add(next);
         const state current = now();
         if (seconds_since(saved) >= options.seconds_between_saves) {
             save(current, what, options.folder);
             saved = clock::now();
         }
         show(current);
+    };
+    const auto save_last = [&] {
+        const state last = now();
+        save(last, what, options.folder);
+        return last;
+    };
+    try {
+        errbound::support::merge_in_order(
+            sum.blocks, options.blocks, options.threads,
+            [&](std::uint64_t block) { return what.compare_block(from.seed, first + block); },
+            merge, stop);
+    } catch (...) {
+        save_last();
+        throw;
     }
-    const state last = now();
-    save(last, what, options.folder);
-    blocks.rethrow_failure();
-    return last;
+    return save_last();
 }
 
 }  // namespace soak
