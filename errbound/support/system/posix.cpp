@@ -1,6 +1,7 @@
 // POSIX.
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -143,6 +144,15 @@ void copy_rights(int descriptor, const std::string& other) {
     struct stat of {};
     constexpr mode_t permissions = 07777;
     if (stat(other.c_str(), &of) == 0) ::fchmod(descriptor, of.st_mode & permissions);
+}
+
+int lock(const std::string& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+    const int reason = errno;
+    ::close(descriptor);
+    errno = reason;
+    return -1;
 }
 
 failing_pipes::failing_pipes() : before_(std::signal(SIGPIPE, SIG_IGN)) {}

@@ -49,6 +49,10 @@ std::ptrdiff_t write(int descriptor, const char* from, std::size_t size);
 std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size_t size);
 void copy_rights(int descriptor, const std::string& other);
 
+/// A descriptor that locks the folder against other processes until it is closed. -1 with
+/// EWOULDBLOCK if it is locked, with another errno if there are no locks.
+int lock(const std::string& folder);
+
 /// While it lives, writing to a closed pipe fails and does not end the program.
 class failing_pipes {
   public:

@@ -165,6 +165,14 @@ std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size
 }
 void copy_rights(int, const std::string&) {}
 
+int lock(const std::string& folder) {
+    const HANDLE file = CreateFileW(wide(folder + "\\.lock").c_str(), GENERIC_WRITE, 0, nullptr,
+                                    OPEN_ALWAYS, FILE_FLAG_DELETE_ON_CLOSE, nullptr);
+    if (file != INVALID_HANDLE_VALUE) return _open_osfhandle(reinterpret_cast<intptr_t>(file), 0);
+    errno = GetLastError() == ERROR_SHARING_VIOLATION ? EWOULDBLOCK : EIO;
+    return -1;
+}
+
 // Windows has no signals for pipes.
 failing_pipes::failing_pipes() : before_(SIG_DFL) {}
 failing_pipes::~failing_pipes() = default;
