@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <errbound/validation/ball.hpp>
 #include <utility>
 
@@ -40,12 +39,14 @@ evidence with_mpfr(evidence what) {
 report examine(const evidence& what, int threads, const progress& show) {
     static const std::atomic<int> no_stop = 0;
     report all;
-    support::ordered_blocks<report> chunks(
+    std::uint64_t done = 0;
+    support::merge_in_order(
         0, what.chunks, static_cast<unsigned>(std::max(threads, 0)), what.report_of,
-        [&all](report found) { all.merge(std::move(found)); }, no_stop);
-    while (!chunks.finished_within(std::chrono::milliseconds(100)))
-        if (show) show(chunks.between_merges([](std::uint64_t done) { return done; }), what.chunks);
-    chunks.rethrow_failure();
+        [&](report found) {
+            all.merge(std::move(found));
+            if (show) show(++done, what.chunks);
+        },
+        no_stop);
     what.describe(all);
     return all;
 }

@@ -1,7 +1,6 @@
 #include "tests/soak/long_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -93,19 +92,16 @@ findings run(const run_options& options, const part& what, const std::atomic<int
     // A folder that cannot be written to is refused now, not in an hour.
     errbound::support::write_whole(options.folder / "differences.txt", "");
     findings sum;
-    errbound::support::ordered_blocks<findings> blocks(
+    const auto merge = [&](const findings& next) {
+        const std::size_t saved = sum.differences.size();
+        sum.add(next);
+        if (sum.differences.size() > saved) save(sum.differences, options.folder);
+        show(sum);
+    };
+    errbound::support::merge_in_order(
         options.first, options.end, options.threads,
-        [&](std::uint64_t block) { return what.compare_block(options.seed, block); },
-        [&](const findings& next) { sum.add(next); }, stop);
-    std::size_t saved = 0;
-    for (bool finished = false; !finished;) {
-        finished = blocks.finished_within(std::chrono::milliseconds(100));
-        const findings now = blocks.between_merges([&](auto) { return sum; });
-        if (finished || now.differences.size() > saved) save(now.differences, options.folder);
-        saved = now.differences.size();
-        show(now);
-    }
-    blocks.rethrow_failure();
+        [&](std::uint64_t block) { return what.compare_block(options.seed, block); }, merge, stop);
+    save(sum.differences, options.folder);
     return sum;
 }
 
