@@ -194,12 +194,12 @@ Proof.
   - intros t T. rewrite At. simpl.
     destruct H as [(-> & _ & -> & ->) | (-> & _ & -> & ->)]; simpl; rewrite Ev, Er.
     + replace (_ + _) with (k * (r - t)) by ring. apply Rmult_lt_0_compat; lra.
-    + replace (_ + _) with (- (k * (r - t))) by ring. assert (0 < k * (r - t)) by (apply
-        Rmult_lt_0_compat; lra). lra.
+    + replace (_ + _) with (- (k * (r - t))) by ring.
+      assert (0 < k * (r - t)) by (apply Rmult_lt_0_compat; lra). lra.
   - intros t T. rewrite At. simpl.
     destruct H as [(_ & -> & -> & ->) | (_ & -> & -> & ->)]; simpl; rewrite Ev, Er.
-    + replace (_ + _) with (- (k * (t - r))) by ring. assert (0 < k * (t - r)) by (apply
-        Rmult_lt_0_compat; lra). lra.
+    + replace (_ + _) with (- (k * (t - r))) by ring.
+      assert (0 < k * (t - r)) by (apply Rmult_lt_0_compat; lra). lra.
     + replace (_ + _) with (k * (t - r)) by ring. apply Rmult_lt_0_compat; lra.
   - intros p N. unfold sign_at_root_of. rewrite R. pose proof (sign_right S (value_at p v w)) as P.
     rewrite value_at_form in P. destruct (value_near_root p (exact v) (exact w) N V W) as (c & C & E).
@@ -210,9 +210,8 @@ Qed.
 Lemma inside_right l t : length l = 2%nat -> opposite l = false -> 0 < t < 1 ->
   sign_is_right (inside l) (form_at l t).
 Proof.
-  intros L O T. destruct (length_2 l L) as (l0 & l1 & ->). unfold opposite, inside, at_time in *. simpl
-    in *.
-  pose proof (sign_right S l0) as A. pose proof (sign_right S l1) as B.
+  intros L O T. destruct (length_2 l L) as (l0 & l1 & ->). unfold opposite, inside, at_time in *.
+  simpl in *. pose proof (sign_right S l0) as A. pose proof (sign_right S l1) as B.
   destruct (sign_of l0), (sign_of l1); try discriminate; simpl in *; auto; nra.
 Qed.
 
@@ -304,8 +303,8 @@ Theorem reduction y g r : length y = 4%nat -> length g = 5%nat -> form_at y r = 
     c * (exact (y#0) * exact (y#3) * form_at g r) = (1 - r) * r * form_at (reduced y g) r.
 Proof.
   intros Ly Lg Z. four y Ly. destruct (length_5 g Lg) as (g0 & g1 & g2 & g3 & g4 & ->).
-  unfold reduced. match goal with |- context [normalized ?p] => destruct (normalized_at p) as (c & C &
-    E) end.
+  unfold reduced.
+  match goal with |- context [normalized ?p] => destruct (normalized_at p) as (c & C & E) end.
   exists c. split; auto. rewrite E.
   replace (exact _ * exact _ * _) with (exact (y0) * exact (y3) * form_at [g0; g1; g2; g3; g4] r
     - form_at [y0; y1; y2; y3] r * (exact y3 * exact g0 * (1 - r) + exact y0 * exact g4 * r))
@@ -484,11 +483,11 @@ Proof.
   intros Ly Ld Ed X Z M. four y Ly. destruct (length_3 d Ld) as (d0 & d1 & d2 & ->).
   assert (N : [d0; d1; d2] <> []) by discriminate.
   assert (D0 : exact d0 < 0).
-  { specialize (M 0 x ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M. simpl in
-      M. lra. }
+  { specialize (M 0 x ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M.
+    simpl in M. lra. }
   assert (D2 : 0 < exact d2).
-  { specialize (M x 1 ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M. simpl in
-      M. lra. }
+  { specialize (M x 1 ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M.
+    simpl in M. lra. }
   unfold sign_at_extremum.
   match goal with |- context [negate (linear_at_extremum _ ?f)] => set (f0 := f) end.
   match goal with |- context [if _ then _ else linear_at_extremum _ ?f] => set (f1 := f) end.

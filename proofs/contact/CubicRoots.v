@@ -114,8 +114,8 @@ Proof.
 Qed.
 Lemma changes_moving y : length y = 4%nat -> (0 < count (inner_sign_changes y))%nat -> ~ Forall (eq 0) y.
 Proof.
-  intros L C Z. revert C. four y L. repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H
-    end.
+  intros L C Z. revert C. four y L.
+  repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H end.
   subst. unfold inner_sign_changes. cbn [map]. rewrite (sign_zero 0 eq_refl). simpl. lia.
 Qed.
 
@@ -153,14 +153,14 @@ Qed.
 (** A point just inside an interval. *)
 Lemma just_after s f a b : sign_after s f a -> a < b -> exists t, a < t < b /\ 0 < unit_of s * f t.
 Proof.
-  intros (d & D & H) L. exists (a + Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt;
-    lra).
+  intros (d & D & H) L. exists (a + Rmin d (b - a) / 2).
+  assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt; lra).
   pose proof (Rmin_l d (b - a)). pose proof (Rmin_r d (b - a)). split; [lra |]. apply H. lra.
 Qed.
 Lemma just_before s f a b : sign_before s f b -> a < b -> exists t, a < t < b /\ 0 < unit_of s * f t.
 Proof.
-  intros (d & D & H) L. exists (b - Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt;
-    lra).
+  intros (d & D & H) L. exists (b - Rmin d (b - a) / 2).
+  assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt; lra).
   pose proof (Rmin_l d (b - a)). pose proof (Rmin_r d (b - a)). split; [lra |]. apply H. lra.
 Qed.
 
@@ -267,8 +267,8 @@ Proof.
   apply linear_times_once. destruct C as [(A & D & B) | (A & D & B)]; [left | right]; intros u V.
   - assert (Q0 : 0 <= q0) by (apply (P r); lra). assert (Q2 : 0 <= q2) by (apply (P (1 - r)); lra).
     assert (Q1 : 0 <= q1).
-    { assert (0 <= r * q2) by (apply Rmult_le_pos; lra). assert (0 <= (1 - r) * q0) by (apply Rmult_le_pos;
-      lra).
+    { assert (0 <= r * q2) by (apply Rmult_le_pos; lra).
+      assert (0 <= (1 - r) * q0) by (apply Rmult_le_pos; lra).
       destruct B; [apply (P (1 - r)) | apply (P r)]; lra. }
     pose proof (positive_quadratic q0 q1 q2 u V Q0 Q1 Q2 ltac:(lra)). split; [lra |]. intros. lra.
   - assert (Q0 : 0 <= - q0) by (apply (P r); lra). assert (Q2 : 0 <= - q2) by (apply (P (1 - r)); lra).
@@ -347,8 +347,8 @@ Proof.
     (2 * q0 * (1 - u) + q1 * u) ^ 2 + (4 * q0 * q2 - q1 ^ 2) * u ^ 2)
     by (intros; unfold quadratic_value; ring).
   assert (S : forall u, 0 <= 4 * q0 * quadratic_value q0 q1 q2 u).
-  { intros u. rewrite E. assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos;
-    [lra | apply pow2_ge_0]).
+  { intros u. rewrite E.
+    assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos; [lra | apply pow2_ge_0]).
     pose proof (pow2_ge_0 (2 * q0 * (1 - u) + q1 * u)). lra. }
   destruct (Rtotal_order q0 0) as [N | [-> | N]].
   - right. intros u _. specialize (S u). nra.
@@ -431,8 +431,8 @@ Proof.
     + rewrite D. ring.
   - intros r U M. destruct (multiple_root_hessian y r U M) as (k & K & E). unfold h in *. rewrite E in *.
     cbn [c0 c1 c2] in *. assert (k <> 0) by (intros ->; apply N; ring).
-    assert (0 < (1 - r) ^ 2) by (apply pow_lt; lra). assert (0 < r * (1 - r)) by (apply Rmult_lt_0_compat;
-      lra).
+    assert (0 < (1 - r) ^ 2) by (apply pow_lt; lra).
+    assert (0 < r * (1 - r)) by (apply Rmult_lt_0_compat; lra).
     assert (0 < k * (1 - r) ^ 2) by (apply Rmult_lt_0_compat; lra).
     assert (0 < k * (r * (1 - r))) by (apply Rmult_lt_0_compat; lra).
     split; [lra |]. apply Rmult_eq_reg_r with (2 * (k * (1 - r) ^ 2) - - (2 * k * r * (1 - r))); [| lra].
@@ -479,9 +479,8 @@ Proof.
   split; intros S.
   - assert (0 < - y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. intros u. rewrite R0.
     replace (- 3 * y3 * x / (- (3 * y3) + - 3 * y3 * x)) with (x / (1 + x)); [easy | field; nra].
-  - assert (0 < y3) by lra. assert (0 < y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. split;
-      [lra |].
-    intros u. rewrite R0.
+  - assert (0 < y3) by lra. assert (0 < y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |].
+    split; [lra |]. intros u. rewrite R0.
     replace (- (- 3 * y3 * x) / (3 * y3 + - (- 3 * y3 * x))) with (x / (1 + x)); [easy | field; nra].
 Qed.
 
@@ -557,8 +556,8 @@ Proof.
     assert (V : at_ y (t / (s + t)) < 0).
     { four y L. rewrite cubic_at_ratio in N by lra. assert (0 < (s + t) ^ 3) by (apply pow_lt; lra). nra. }
     assert (U : 0 < t / (s + t) < 1).
-    { split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (s + t); [lra |]. field_simplify;
-      lra. }
+    { split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (s + t); [lra |].
+      field_simplify; lra. }
     destruct (just_after _ _ _ (t / (s + t)) B ltac:(lra)) as (u & Hu & P). simpl in P.
     destruct (between_signs (at_ y) u (t / (s + t))) as (r & Hr & Z); [apply continuous_form | lra | nra |].
     exists r. split; auto. lra. }
@@ -763,9 +762,8 @@ Proof.
 Qed.
 Lemma over_le a b n : (0 <= n)%Z -> (a <= b)%Z -> over a n <= over b n.
 Proof.
-  intros N L. apply power_positive in N. unfold over. apply Rmult_le_compat_r; [left;
-    now apply Rinv_0_lt_compat |].
-  now apply IZR_le.
+  intros N L. apply power_positive in N. unfold over.
+  apply Rmult_le_compat_r; [left; now apply Rinv_0_lt_compat |]. now apply IZR_le.
 Qed.
 Lemma over_finer a n m : (0 <= n <= m)%Z -> over (a * 2 ^ (m - n)) m = over a n.
 Proof.

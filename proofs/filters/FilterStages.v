@@ -590,8 +590,8 @@ Notation q := {| b_ := moving_difference m b1 b0; c_ := moving_difference m c1 c
 Lemma sizes_cover : SeparatingAxis.sized m d.
 Proof.
   unfold SeparatingAxis.sized, SeparatingAxis.within, sizes. cbn [Contact.x Contact.y Contact.z].
-  pose proof (largest_covers Contact.x d) as (X1 & X2 & X3). pose proof (largest_covers Contact.y d) as (Y1
-    & Y2 & Y3).
+  pose proof (largest_covers Contact.x d) as (X1 & X2 & X3).
+  pose proof (largest_covers Contact.y d) as (Y1 & Y2 & Y3).
   pose proof (largest_covers Contact.z d) as (Z1 & Z2 & Z3). auto 10.
 Qed.
 Lemma sizes_number : (number (Contact.x m) /\ number (Contact.y m) /\ number (Contact.z m)) /\

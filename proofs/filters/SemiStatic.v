@@ -609,15 +609,14 @@ Proof.
     cbn [constants_not_zero mass allowances]; try (intros _; lra).
   - intros C. apply negb_true_iff, Z.eqb_neq in C. split; [| lra]. rewrite (fl_abs p emin), <- abs_IZR.
     apply (fl_above 1); [lia |]. apply IZR_le. lia.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
-    (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B).
+    destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
     split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
-    (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B).
+    destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
     split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
-    (number_mass y).
-    split.
+  - intros H. apply andb_prop in H. destruct H as (A & B).
+    destruct (IHx A), (IHy B), (number_mass x), (number_mass y). split.
     + apply Rle_trans with (mass x); auto. apply part_of_product; auto. lra.
     + apply Z0. assert (0 <= fl (2 * fl (fl (mass x * allowances y) + fl (mass y * allowances x)))); [| lra].
       apply Z0, Rmult_le_pos; [lra |]. apply Z0, Rplus_le_le_0_compat; apply Z0, Rmult_le_pos; lra.
@@ -653,8 +652,8 @@ Proof.
     assert (X1 : mass x <= fl (mass x * mass y)) by (apply part_of_product; auto; lra).
     assert (X2 : mass y <= fl (mass x * mass y)) by (rewrite Rmult_comm; apply part_of_product; auto; lra).
     set (a := fl (mass x * allowances y)) in *. set (b := fl (mass y * allowances x)) in *.
-    assert (Pa : 0 <= a) by (apply Z0, Rmult_le_pos; lra). assert (Pb : 0 <= b) by (apply Z0, Rmult_le_pos;
-      lra).
+    assert (Pa : 0 <= a) by (apply Z0, Rmult_le_pos; lra).
+    assert (Pb : 0 <= b) by (apply Z0, Rmult_le_pos; lra).
     assert (X3 : allowances y <= a) by (unfold a; rewrite Rmult_comm; apply part_of_product; auto).
     assert (X4 : allowances x <= b) by (unfold b; rewrite Rmult_comm; apply part_of_product; auto).
     assert (X5 : a <= fl (a + b)) by (apply part_of_sum; auto; apply N).
@@ -825,8 +824,8 @@ Proof.
     assert (Md1 : 1 <= M ^ d) by (apply pow_R1_Rle; lra).
     assert (De : 2 * INR d * eta <= / 64).
     { assert (Dp : INR d * u <= / 64).
-      { apply le_INR in Dr. rewrite S_INR in Dr. apply Rle_trans with ((INR k + 1) * u);
-        [apply Rmult_le_compat_r; lra | lra]. }
+      { apply le_INR in Dr. rewrite S_INR in Dr.
+        apply Rle_trans with ((INR k + 1) * u); [apply Rmult_le_compat_r; lra | lra]. }
       assert (Eu : eta <= u / 2).
       { unfold Format.eta, Format.u, Rdiv. change (/ 2) with (bpow radix2 (-1)). rewrite <- bpow_plus.
         apply bpow_le. lia. }

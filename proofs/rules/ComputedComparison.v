@@ -279,8 +279,8 @@ Proof.
     assert (Given : sa + sb <= c * (G - 1) * B).
     { apply Rle_trans with (c * (G - 1) * (Ba + Bb)); [| apply Rmult_le_compat_l; [nra | exact S]].
       apply Rle_trans with (c * (power ka - 1) * Ba + c * (power kb - 1) * Bb); [lra |].
-      rewrite Rmult_plus_distr_l. apply Rplus_le_compat; apply Rmult_le_compat_r; try lra;
-        apply Rmult_le_compat_l; lra. }
+      rewrite Rmult_plus_distr_l.
+      apply Rplus_le_compat; apply Rmult_le_compat_r; try lra; apply Rmult_le_compat_l; lra. }
     set (h := (1 + 32 * u) * (1 + u) ^ 2).
     assert (Own := own_of_sum (fl (a + b)) B V L). fold h in Own.
     assert (Ph : 0 <= h) by (unfold h; apply Rmult_le_pos; [lra | apply pow_le; lra]).
@@ -342,8 +342,8 @@ Proof.
     generalize (power_1 (snd B)). intros G. repeat apply Rmult_le_pos; lra. }
   unfold Tight.tight_multiply. cbv zeta.
   destruct (Tight.is_zero a sa || Tight.is_zero b sb) eqn:TZ.
-  { apply N0. apply orb_prop in TZ. destruct TZ as [TZ | TZ]; apply Tight.is_zero_true in TZ;
-      destruct TZ as [-> _]; ring. }
+  { apply N0. apply orb_prop in TZ.
+    destruct TZ as [TZ | TZ]; apply Tight.is_zero_true in TZ; destruct TZ as [-> _]; ring. }
   clear N0. unfold Safe.safe_multiply in EB. destruct (Safe.is_zero a ka || Safe.is_zero b kb) eqn:SZ.
   { exfalso. assert (Q : forall x s X k, ((k < Safe.too_many)%Z -> s <= c * (power k - 1) * X /\ (k = 0%Z -> s = 0)) ->
       Tight.is_zero x s = false -> Safe.is_zero x k = false).

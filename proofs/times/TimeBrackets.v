@@ -104,8 +104,8 @@ Lemma search_only p before low high r b : search p before low high b -> low < r 
   (forall x, low < x < high -> p x * before < 0 -> r < x) ->
   (forall x, low < x < high -> p x = 0 -> x = r) -> holds_time b r.
 Proof.
-  intros B R0 Later Earlier Only. destruct (search_right p before low high r b B R0 Later Earlier)
-    as [| (L & D & E & Z)]; auto.
+  intros B R0 Later Earlier Only.
+  destruct (search_right p before low high r b B R0 Later Earlier) as [| (L & D & E & Z)]; auto.
   pose proof (Only _ L Z) as F. left. rewrite E, <- F. auto.
 Qed.
 

@@ -62,8 +62,8 @@ Proof.
   assert (Um : 0 <= u * m) by (apply Rmult_le_pos; lra).
   assert (U1 : u * (u * m) <= / 1024 * (u * m)) by (apply Rmult_le_compat_r; lra).
   assert (U2 : u * (u * (u * m)) <= / 1024 * (u * m)).
-  { assert (0 <= u * (u * m)) by (apply Rmult_le_pos; lra). assert (u * (u * (u * m)) <= / 1024 * (u * (u * m)));
-      [apply Rmult_le_compat_r |]; lra. }
+  { assert (0 <= u * (u * m)) by (apply Rmult_le_pos; lra).
+    assert (u * (u * (u * m)) <= / 1024 * (u * (u * m))); [apply Rmult_le_compat_r |]; lra. }
   split.
   - replace (s + e - (x + y)) with (e - (y - z) + - (z - (s - x))) by ring.
     eapply Rle_trans; [apply Rabs_triang |]. rewrite Rabs_Ropp. lra.
