@@ -77,21 +77,11 @@ Proof.
   split; intros a b A B AB.
   - rewrite (taylor y a b L), !V.
     assert (0 < (b - a) * (b - a)) by nra.
-    assert (0 < 2 * (l0 * (1 - a) + l1 * a) + (l0 * (1 - b) + l1 * b)).
-    { destruct N as (N0 & N1 & [P | P]).
-      - assert (0 <= l1 * (2 * a + b)) by (apply Rmult_le_pos; lra).
-        assert (0 < l0 * (3 - 2 * a - b)) by (apply Rmult_lt_0_compat; lra). lra.
-      - assert (0 <= l0 * (3 - 2 * a - b)) by (apply Rmult_le_pos; lra).
-        assert (0 < l1 * (2 * a + b)) by (apply Rmult_lt_0_compat; lra). lra. }
+    assert (0 < 2 * (l0 * (1 - a) + l1 * a) + (l0 * (1 - b) + l1 * b)) by nra.
     assert (0 < (b - a) * (b - a) * (2 * (l0 * (1 - a) + l1 * a) + (l0 * (1 - b) + l1 * b)))
       by (apply Rmult_lt_0_compat; auto). lra.
   - pose proof (trapezoid y a b L) as T. rewrite !V in T.
-    assert (0 < l0 * (1 - a) + l1 * a + (l0 * (1 - b) + l1 * b)).
-    { destruct N as (N0 & N1 & [P | P]).
-      - assert (0 <= l1 * (a + b)) by (apply Rmult_le_pos; lra).
-        assert (0 < l0 * (2 - a - b)) by (apply Rmult_lt_0_compat; lra). lra.
-      - assert (0 <= l0 * (2 - a - b)) by (apply Rmult_le_pos; lra).
-        assert (0 < l1 * (a + b)) by (apply Rmult_lt_0_compat; lra). lra. }
+    assert (0 < l0 * (1 - a) + l1 * a + (l0 * (1 - b) + l1 * b)) by nra.
     assert (0 < (b - a) * (l0 * (1 - a) + l1 * a + (l0 * (1 - b) + l1 * b)))
       by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
@@ -264,18 +254,14 @@ Proof.
     - intros Y. assert (x <> r) by (intros ->; lra). specialize (Tx H).
       destruct (Rlt_or_le x r); auto. assert (0 <= form_at d x * (r - x)) by nra. lra.
     - intros R. apply Md; lra.
-    - intros Y R. destruct (Req_dec x r) as [| H]; auto. specialize (Tx H). specialize (Ty H).
-      destruct (Rlt_or_le x r); [assert (0 <= form_at d r * (x - r)) by nra |
-                                 assert (0 <= form_at d x * (r - x)) by nra]; lra. }
+    - intros Y R. nra. }
   assert (Rising : 0 < form_at d x -> (0 < form_at y x -> r < x) /\ (form_at d r <= 0 -> r < x)
                    /\ (form_at y x = 0 -> 0 <= form_at d r -> x = r)).
   { intros D. split; [| split].
     - intros Y. assert (x <> r) by (intros ->; lra). specialize (Tx H).
       destruct (Rlt_or_le r x); auto. assert (0 <= form_at d x * (r - x)) by nra. lra.
     - intros R. apply Md; lra.
-    - intros Y R. destruct (Req_dec x r) as [| H]; auto. specialize (Tx H). specialize (Ty H).
-      destruct (Rlt_or_le x r); [assert (0 <= form_at d x * (r - x)) by nra |
-                                 assert (0 <= form_at d r * (x - r)) by nra]; lra. }
+    - intros Y R. nra. }
   assert (Zero : form_at d x = 0 -> form_at y x = 0 -> x = r).
   { intros D Y. destruct (Req_dec x r) as [| H]; auto. specialize (Tx H). rewrite D, Y in Tx. lra. }
   destruct (sign_at_root_of l y), (sign_at_root_of l d); simpl in *;

@@ -266,16 +266,10 @@ Proof.
   assert (P : forall a b, 0 < a -> 0 <= a * b -> 0 <= b) by (clear; intros; nra).
   apply linear_times_once. destruct C as [(A & D & B) | (A & D & B)]; [left | right]; intros u V.
   - assert (Q0 : 0 <= q0) by (apply (P r); lra). assert (Q2 : 0 <= q2) by (apply (P (1 - r)); lra).
-    assert (Q1 : 0 <= q1).
-    { assert (0 <= r * q2) by (apply Rmult_le_pos; lra).
-      assert (0 <= (1 - r) * q0) by (apply Rmult_le_pos; lra).
-      destruct B; [apply (P (1 - r)) | apply (P r)]; lra. }
+    assert (Q1 : 0 <= q1) by nra.
     pose proof (positive_quadratic q0 q1 q2 u V Q0 Q1 Q2 ltac:(lra)). split; [lra |]. intros. lra.
   - assert (Q0 : 0 <= - q0) by (apply (P r); lra). assert (Q2 : 0 <= - q2) by (apply (P (1 - r)); lra).
-    assert (Q1 : 0 <= - q1).
-    { assert (0 <= r * - q2) by (apply Rmult_le_pos; lra).
-      assert (0 <= (1 - r) * - q0) by (apply Rmult_le_pos; lra).
-      destruct B; [apply (P (1 - r)) | apply (P r)]; lra. }
+    assert (Q1 : 0 <= - q1) by nra.
     pose proof (positive_quadratic (- q0) (- q1) (- q2) u V Q0 Q1 Q2 ltac:(lra)) as H.
     replace (quadratic_value (- q0) (- q1) (- q2) u) with (- quadratic_value q0 q1 q2 u) in H
       by (unfold quadratic_value; ring). split; [lra |]. intros. lra.
@@ -537,7 +531,6 @@ Proof.
   - destruct (Z eq_refl) as (P2 & P1 & P0). exists (2 * y2), (- y1). split; [lra |]. split; [lra |].
     replace (form [y0; y1; y2; 0] (2 * y2) (- y1)) with (- (2 * (y2 * y2)) * (y1 * y1 - 4 * (y0 * y2))) by
       (simpl; ring).
-    assert (0 < y2 * y2) by nra.
     replace (4 * ((y1 * y1 - 3 * (y0 * y2)) * h2) - (y1 * y2 - 3 * (3 * (y0 * 0))) * (y1 * y2 - 3 * (3 * (y0
       * 0))))
       with (3 * (y2 * y2) * (y1 * y1 - 4 * (y0 * y2))) in D by (unfold h2; ring).
@@ -718,10 +711,7 @@ Proof.
   assert (S : forall t, unit_of s * (l0 + l1 * t) = unit_of s * l1 * (t - r))
     by (intros t; transitivity (unit_of s * (l0 + l1 * t) - unit_of s * (l0 + l1 * r)); [rewrite Zr |]; ring).
   rewrite S in Pu, Pw.
-  assert (u < r < w).
-  { split; apply Rnot_le_lt; intros K.
-    - assert (0 <= - (unit_of s * l1) * (u - r)) by (apply Rmult_le_pos; lra). lra.
-    - assert (0 <= - (unit_of s * l1) * (r - w)) by (apply Rmult_le_pos; lra). lra. }
+  assert (u < r < w) by nra.
   exists r. split; [lra |]. split; [destruct (H r ltac:(lra)) as (-> & _); rewrite Zr; ring |].
   intros t T Z. destruct (H t T) as (E & _ & Qt). rewrite E in Z. apply Rmult_integral in Z.
   destruct Z as [Z | Z]; auto. left. assert (Z' : l1 * (t - r) = 0) by lra. apply Rmult_integral in Z'. lra.
@@ -935,7 +925,6 @@ Proof.
   assert (Es : over begin bits = part_start p) by (apply over_finer; lia).
   assert (Ef : over finish bits = part_end p) by (apply over_finer; lia).
   assert (W : (0 < 2 ^ (bits - level p))%Z) by (apply Z.pow_pos_nonneg; lia).
-  assert (Hw : (begin < finish)%Z) by (unfold begin, finish; lia).
   assert (R : (1 <= 2 ^ radius <= 2 ^ 24)%Z).
   { split; [change 1%Z with (2 ^ 0)%Z |]; apply Z.pow_le_mono_r; lia. }
   assert (T : (2 ^ bits = 2 ^ level p * 2 ^ (bits - level p))%Z) by (rewrite <- Z.pow_add_r by lia; f_equal;

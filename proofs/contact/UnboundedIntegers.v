@@ -368,8 +368,6 @@ Theorem integer_contact_right v e0 e1 : contact_meets (promises finder) v e0 e1 
   vertex_edge_collides (exact_motion v) (exact_motion e0) (exact_motion e1).
 Proof.
   intros Asked. unfold contact. assert (D : forall q p : @moving_point integers, degree (difference q p) 1) by easy.
-  destruct (cross_at (difference v e0) (difference e1 e0) 1 1 0 (D _ _) (D _ _)) as (_ & L & M & N).
-  destruct (dot_at (difference v e0) (difference v e1) 1 1 0 (D _ _) (D _ _)) as (_ & B).
   rewrite touches_right by (exact Asked || (repeat constructor; auto) || exact B).
   assert (E : forall t, meets [vx (cross_form (difference v e0) (difference e1 e0)); vy (cross_form
     (difference v e0)

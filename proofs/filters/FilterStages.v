@@ -298,7 +298,6 @@ Proof.
     apply Rle_trans with (bpow radix2 20 * eta).
     - replace (50 * eta * 1000) with (50000 * eta) by ring. apply Rmult_le_compat_r; [lra | simpl; lra].
     - unfold tiny, Format.eta. rewrite <- bpow_plus. apply bpow_le. lia. }
-  assert (T : 0 < tiny) by apply bpow_gt_0.
   assert (PH : 0 <= halvings n) by (assert (0 <= INR (n * max_depth) * eps) by (apply Rmult_le_pos; lra); lra).
   assert (PD : 0 <= largest * halvings n) by now apply Rmult_le_pos.
   assert (PB : 0 <= bound) by (apply Rmult_le_reg_r with (1 - eps); lra).

@@ -271,9 +271,7 @@ Proof.
   { split; [apply pow_le; lra |]. rewrite <- (pow1 k). apply pow_incr. lra. }
   apply Rle_trans with ((y + eta) * (y ^ k + 2 * INR k * eta)).
   - apply Rmult_le_compat_l; lra.
-  - assert (eta * y ^ k <= eta * 1) by (apply Rmult_le_compat_l; lra).
-    assert (y * (INR k * eta) <= 1 * (INR k * eta)) by (apply Rmult_le_compat_r; lra).
-    assert (eta * (2 * INR k * eta) <= eta * 1) by (apply Rmult_le_compat_l; lra). lra.
+  - nra.
 Qed.
 Lemma number_1 : number 1.
 Proof. change 1 with (bpow radix2 0). apply number_power; auto. lia. Qed.
@@ -382,12 +380,7 @@ Lemma slack_enough t : 0 <= t -> 64 * (t + 3 * u) <= 1 ->
 Proof.
   intros T H. generalize (u_positive p). intros U.
   assert (P2 : (1 + u) ^ 2 <= 1 + 2.01 * u) by (simpl; nra).
-  assert (P6 : (1 + u) ^ 6 <= 1 + 6.2 * u).
-  { replace ((1 + u) ^ 6) with ((1 + u) ^ 2 * (1 + u) ^ 2 * (1 + u) ^ 2) by ring.
-    assert (0 <= (1 + u) ^ 2) by (apply pow_le; lra).
-    apply Rle_trans with ((1 + 2.01 * u) * (1 + 2.01 * u) * (1 + 2.01 * u)).
-    - apply Rmult_le_compat; auto; [apply Rmult_le_pos; auto |]. apply Rmult_le_compat; auto.
-    - nra. }
+  assert (P6 : (1 + u) ^ 6 <= 1 + 6.2 * u) by nra.
   set (y := t + u) in *. assert (Y : 0 <= y <= / 64) by (unfold y; lra).
   assert (A : (1 + t) * (1 + y + y * y) <= 1 + 2.05 * t + 1.05 * u).
   { assert (y * y <= / 64 * y) by (apply Rmult_le_compat_r; lra).
@@ -563,7 +556,6 @@ Proof.
     apply Rle_trans with (1 * 1); [lra | apply Rmult_le_compat; lra]. }
   assert (S3 : exact_size e <= pw * (1 + u / 16) * g).
   { apply Rle_trans with (1 := S1). unfold g.
-    assert (0 <= (IZR az - / 4) * tau) by (apply Rmult_le_pos; lra).
     assert (1 * ((IZR az - / 4) * tau) <= pw * (1 + u / 16) * ((IZR az - / 4) * tau))
       by (apply Rmult_le_compat_r; lra). lra. }
   apply Rmult_le_reg_l with ((1 + u) ^ 6); [lra |].

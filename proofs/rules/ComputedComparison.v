@@ -144,15 +144,10 @@ Let f := 1 + 22 * eps.
 Lemma all_roundings : (1 + eps) * ((1 + 32 * u) * (1 + u) ^ 6) <= f.
 Proof.
   unfold f. rewrite (eps_2u p). generalize u_256. generalize u. intros x [P L].
-  assert (S1 : (1 + x) ^ 6 <= 1 + 6 * x + 16 * (x * x)).
-  { replace ((1 + x) ^ 6) with (1 + 6 * x + 15 * (x * x) + (x * x) * (x * (20 + 15 * x + 6 * (x * x) + x * x * x))) by ring.
-    assert (0 <= x * x) by nra. assert (x * x <= 1) by nra. assert (x * x * x <= 1) by nra.
-    assert (x * (20 + 15 * x + 6 * (x * x) + x * x * x) <= 1) by nra. nra. }
+  assert (S1 : (1 + x) ^ 6 <= 1 + 6 * x + 16 * (x * x)) by nra.
   apply Rle_trans with ((1 + 2 * x) * ((1 + 32 * x) * (1 + 6 * x + 16 * (x * x)))).
   - apply Rmult_le_compat_l; [lra |]. apply Rmult_le_compat_l; lra.
-  - replace ((1 + 2 * x) * ((1 + 32 * x) * (1 + 6 * x + 16 * (x * x))))
-      with (1 + 40 * x + x * (x * (284 + x * (928 + x * 1024)))) by ring.
-    assert (x * (284 + x * (928 + x * 1024)) <= 4) by nra. nra.
+  - nra.
 Qed.
 Lemma f_1 : 1 <= f.
 Proof. unfold f. generalize (eps_positive p). lra. Qed.

@@ -179,7 +179,6 @@ Proof.
 Qed.
 Theorem affine_keeps_operations : keeps_operations p emax affine (by_rule None) (affine_known e).
 Proof.
-  assert (G : None = Some 0%Z \/ @None Z = None) by now right.
   split; cbn [affine_operations the_rule rule_add rule_multiply rule_divide rule_scale].
   - apply affine_promises.
   - intros a sa x b sb y KA KB. destruct (new_to_both sa sb) as (f & NA & NB).

@@ -133,7 +133,6 @@ Proof.
     left. auto.
   - assert (O : p0 * p1 < 0) by (destruct (Req_dec (p0 * p1) 0) as [Q |]; [apply Rmult_integral in Q; tauto | lra]).
     assert (P : 0 < p0 * (p0 - p1)) by nra. assert (P1 : 0 < - p1 * (p0 - p1)) by nra.
-    assert (E1 : (1 - r) * (p0 - p1) = - p1) by lra.
     assert (R0 : 0 < r < 1).
     { destruct (Rlt_or_le 0 (p0 - p1)) as [Q | Q].
       - assert (0 < p0) by nra. assert (0 < - p1) by nra. split; nra.
