@@ -21,23 +21,20 @@ namespace errbound::support {
 template <class Compute, class Merge>
 void merge_in_order(std::uint64_t first, std::uint64_t end, unsigned threads,
                     const Compute& compute, const Merge& merge, const std::atomic<int>& stop) {
-    const std::uint64_t wanted = threads > 0 ? threads : std::thread::hardware_concurrency();
+    if (threads == 0) threads = std::thread::hardware_concurrency();
     std::mutex mutex;  // of the variables that follow
     std::condition_variable changed;
     std::map<std::uint64_t, decltype(compute(first))> results;
-    std::uint64_t next = first;
-    auto working = std::clamp<std::uint64_t>(wanted, 1, std::max<std::uint64_t>(end - first, 1));
-    bool ending = false;
+    std::uint64_t next = first,
+                  working = std::clamp<std::uint64_t>(end - first, 1, std::max(threads, 1U));
     const auto work = [&] {
         std::unique_lock lock(mutex);
-        const auto leave = [&](bool ends) {
-            if (!lock) lock.lock();
-            ending = ending || ends;
+        const auto leave = [&] {
             --working;
             changed.notify_one();
         };
         try {
-            while (stop == 0 && !ending && next < end) {
+            while (stop == 0 && next < end) {
                 const std::uint64_t block = next++;
                 lock.unlock();
                 auto result = compute(block);
@@ -46,27 +43,28 @@ void merge_in_order(std::uint64_t first, std::uint64_t end, unsigned threads,
                 changed.notify_one();
             }
         } catch (...) {
-            leave(true);
+            if (!lock) lock.lock();
+            next = end;
+            leave();
             throw;
         }
-        leave(false);
+        leave();
     };
-
     std::vector<std::future<void>> workers;  // their destructors wait
     try {
-        for (std::uint64_t left = working; left > 0; --left)
+        for (auto left = working; left > 0; --left)
             workers.push_back(std::async(std::launch::async, work));
         for (std::uint64_t merged = first; merged < end; ++merged) {
             std::unique_lock lock(mutex);
             changed.wait(lock, [&] { return results.contains(merged) || working == 0; });
-            auto result = results.extract(merged);
+            const auto result = results.extract(merged);
             if (result.empty()) break;
             lock.unlock();
-            merge(std::move(result.mapped()));
+            merge(result.mapped());
         }
     } catch (...) {
         const std::scoped_lock lock(mutex);
-        ending = true;
+        next = end;
         throw;
     }
     for (std::future<void>& worker : workers) worker.get();
