@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <future>
 #include <map>
 #include <mutex>
@@ -28,14 +29,9 @@ void merge_in_order(std::uint64_t first, std::uint64_t end, unsigned threads,
     std::uint64_t next = first;
     auto working = std::clamp<std::uint64_t>(wanted, 1, std::max<std::uint64_t>(end - first, 1));
     bool ending = false;
+    std::exception_ptr failure;
     const auto work = [&] {
         std::unique_lock lock(mutex);
-        const auto leave = [&](bool ends) {
-            if (!lock) lock.lock();
-            ending = ending || ends;
-            --working;
-            changed.notify_one();
-        };
         try {
             while (stop == 0 && !ending && next < end) {
                 const std::uint64_t block = next++;
@@ -46,10 +42,12 @@ void merge_in_order(std::uint64_t first, std::uint64_t end, unsigned threads,
                 changed.notify_one();
             }
         } catch (...) {
-            leave(true);
-            throw;
+            if (!lock) lock.lock();
+            failure = std::current_exception();
+            ending = true;
         }
-        leave(false);
+        --working;
+        changed.notify_one();
     };
 
     std::vector<std::future<void>> workers;  // their destructors wait
@@ -69,7 +67,7 @@ void merge_in_order(std::uint64_t first, std::uint64_t end, unsigned threads,
         ending = true;
         throw;
     }
-    for (std::future<void>& worker : workers) worker.get();
+    if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace errbound::support
