@@ -157,16 +157,8 @@ class methods_run final : public command {
 
 }  // namespace
 
-std::unique_ptr<command> stress_command(CLI::App& program) {
-    return std::make_unique<stress_run>(program);
-}
-
-std::unique_ptr<command> report_command(CLI::App& program) {
-    return std::make_unique<report_run>(program);
-}
-
-std::unique_ptr<command> methods_command(CLI::App& program) {
-    return std::make_unique<methods_run>(program);
-}
+const command_maker stress_command = make_command<stress_run>;
+const command_maker report_command = make_command<report_run>;
+const command_maker methods_command = make_command<methods_run>;
 
 }  // namespace ccd::program

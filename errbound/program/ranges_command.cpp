@@ -298,6 +298,5 @@ void ranges::print(std::ostream& people) const {
 }  // namespace
 }  // namespace errbound::validation
 
-std::unique_ptr<errbound::support::command> errbound::ranges_command(CLI::App& program) {
-    return std::make_unique<validation::ranges>(program);
-}
+const errbound::support::command_maker errbound::ranges_command =
+    errbound::support::make_command<validation::ranges>;

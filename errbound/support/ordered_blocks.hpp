@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <future>
 #include <map>
 #include <mutex>
@@ -27,12 +28,9 @@ void merge_in_order(std::uint64_t first, std::uint64_t end, unsigned threads,
     std::map<std::uint64_t, decltype(compute(first))> results;
     std::uint64_t next = first,
                   working = std::clamp<std::uint64_t>(end - first, 1, std::max(threads, 1U));
+    std::exception_ptr failure;
     const auto work = [&] {
         std::unique_lock lock(mutex);
-        const auto leave = [&] {
-            --working;
-            changed.notify_one();
-        };
         try {
             while (stop == 0 && next < end) {
                 const std::uint64_t block = next++;
@@ -44,11 +42,11 @@ void merge_in_order(std::uint64_t first, std::uint64_t end, unsigned threads,
             }
         } catch (...) {
             if (!lock) lock.lock();
+            failure = std::current_exception();
             next = end;
-            leave();
-            throw;
         }
-        leave();
+        --working;
+        changed.notify_one();
     };
     std::vector<std::future<void>> workers;  // their destructors wait
     try {
@@ -67,7 +65,7 @@ void merge_in_order(std::uint64_t first, std::uint64_t end, unsigned threads,
         next = end;
         throw;
     }
-    for (std::future<void>& worker : workers) worker.get();
+    if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace errbound::support
