@@ -31,6 +31,12 @@ count_table& findings::table(std::string_view title) {
     return const_cast<count_table&>(std::as_const(*this).table(title));
 }
 
+bool findings::have(std::string_view fault) const {
+    return std::ranges::any_of(differences, [fault](const difference& d) {
+        return d.text.find(fault) != std::string::npos && d.text.find("0x1") != std::string::npos;
+    });
+}
+
 void findings::differ(difference d) {
     ++different;
     if (differences.size() < max_kept) differences.push_back(std::move(d));

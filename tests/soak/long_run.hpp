@@ -51,6 +51,8 @@ struct findings {
     count_table& table(std::string_view title);
     /// Counts the difference and keeps it if there is room.
     void differ(difference d);
+    /// True if the text of a difference has this fault and hexadecimal floats, for a replay.
+    bool have(std::string_view fault) const;
     void stir(std::uint64_t answer) { checksum = (checksum ^ answer) * 0x100000001b3; }
 };
 

@@ -64,7 +64,7 @@ class Soak(ProgramTest):
 
     def test_bad_usage(self):
         for options in (["--queries", "many"], ["--unknown"]):
-            self.assertEqual(self.run_program(*options).returncode, 2)
+            self.refused(2, "", *options)
 
 
 if __name__ == "__main__":

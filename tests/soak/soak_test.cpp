@@ -192,8 +192,7 @@ TEST_F(soak_test, one_answer_turned_round_among_thousands_is_found) {
         });
     const soak::findings found = soak::symmetry_part({exact(), once}).compare_block(1, 0);
     EXPECT_EQ(found.different, 1u);
-    EXPECT_NE(found.differences.at(0).text.find("wrong once returns"), std::string::npos);
-    EXPECT_NE(found.differences.at(0).text.find("0x1"), std::string::npos);  // hexadecimal floats
+    EXPECT_TRUE(found.have("wrong once returns"));
 }
 
 TEST_F(soak_test, rounding_methods_contradict_themselves_on_images) {

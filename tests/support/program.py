@@ -1,4 +1,5 @@
 """Tests of a program as a user runs it (PYTHONPATH of errbound_python_test)."""
+import csv
 import pathlib
 import subprocess
 import tempfile
@@ -21,3 +22,16 @@ class ProgramTest(unittest.TestCase):
         done = self.run_program(*arguments, **options)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
         return done.stdout
+
+    def refused(self, status, message, *arguments):
+        """A run must end with this status and message, and print nothing else."""
+        done = self.run_program(*arguments)
+        self.assertEqual((done.returncode, done.stdout), (status, ""), arguments)
+        self.assertIn(message, done.stderr)
+        self.assertNotEqual(done.stderr, "")
+
+
+def rows_of(table):
+    """Returns the rows of a CSV file by the names of its columns."""
+    with open(table, newline="") as file:
+        return list(csv.DictReader(file))

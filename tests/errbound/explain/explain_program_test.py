@@ -96,14 +96,9 @@ class Explain(ProgramTest):
                               (self.file.read_text()[:-20], "text at byte")):
             bad = self.directory / "bad.json"
             bad.write_text(text)
-            done = self.run_program(bad, "--picture", picture)
-            self.assertEqual(done.returncode, 1)
-            self.assertIn("bad.json: " + message, done.stderr)
-            self.assertEqual(done.stdout, "")
+            self.refused(1, "bad.json: " + message, bad, "--picture", picture)
             self.assertFalse(picture.exists())
-        done = self.run_program(self.directory / "missing.json")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("missing.json", done.stderr)
+        self.refused(1, "missing.json", self.directory / "missing.json")
 
     def test_bad_output(self):
         missing = self.directory / "missing" / "out"
@@ -117,10 +112,7 @@ class Explain(ProgramTest):
         text = self.file.read_text()
         for arguments in ((), (self.file, "--result", "no such"), (self.file, "--lines", "0"),
                           (self.file, "--picture", self.file), (self.file, self.file)):
-            done = self.run_program(*arguments)
-            self.assertEqual(done.returncode, 2, arguments)
-            self.assertNotEqual(done.stderr, "")
-            self.assertEqual(done.stdout, "")
+            self.refused(2, "", *arguments)
         self.assertEqual(self.file.read_text(), text)
 
 
