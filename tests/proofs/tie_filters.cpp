@@ -17,6 +17,10 @@
 #include "tests/proofs/drawn_query.hpp"
 #include "tests/proofs/table.hpp"
 
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wimplicit-const-int-float-conversion"  // a constant is rounded
+#endif
+
 namespace {
 
 using errbound::filters::filtered_coordinate;
