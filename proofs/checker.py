@@ -219,32 +219,30 @@ def statements(build, library, found):
     return {name: re.sub(r"^\S+\n +: ", "", printed[name]).rstrip("\n") for name in names}
 
 
+def digest_of(statement):
+    return hashlib.sha256(statement.encode()).hexdigest()[:12]
+
+
 def record_of(stated):
-    """Returns the record of statements: a paragraph for each file, with theorem:digest for each."""
+    """Returns the record of statements: a paragraph for each file, with the digests of its theorems in their order."""
     files = {}
     for name, statement in stated.items():
-        file, theorem = name.split(".")
-        files.setdefault(file, [file]).append(f"{theorem}:{hashlib.sha256(statement.encode()).hexdigest()[:12]}")
-    return "".join(textwrap.fill(" ".join(words), 120, subsequent_indent="    ", break_long_words=False) + "\n"
-                   for words in files.values())
+        files.setdefault(name.split(".")[0], []).append(digest_of(statement))
+    return "".join(textwrap.fill(" ".join([file, *digests]), 120, subsequent_indent="    ") + "\n"
+                   for file, digests in files.items())
 
 
 def recorded(path):
-    """Returns the digests in a record of statements, by name (file.theorem)."""
-    found = {}
-    for paragraph in re.sub(r"\n ", " ", path.read_text() if path.exists() else "").splitlines():
-        file, *entries = paragraph.split()
-        for entry in entries:
-            theorem, digest = entry.split(":")
-            found[f"{file}.{theorem}"] = digest
-    return found
+    """Returns the digests in a record of statements, by file."""
+    paragraphs = re.sub(r"\n ", " ", path.read_text() if path.exists() else "").splitlines()
+    return {file: digests for file, *digests in map(str.split, paragraphs)}
 
 
 def differing(stated, path):
-    """Returns the statements, as text, whose digests differ from those of the record."""
-    new = {f"{name}:{digest}" for name, digest in recorded(path).items()}
+    """Returns the statements, as text, whose digests are not in the record."""
+    known = recorded(path)
     return "".join(f"{name}\n     : {statement}\n\n" for name, statement in stated.items()
-                   if f"{name}:{hashlib.sha256(statement.encode()).hexdigest()[:12]}" not in new)
+                   if digest_of(statement) not in known.get(name.split(".")[0], []))
 
 
 def compare(text, path, build, shown=""):

@@ -3,6 +3,7 @@
 usage: checker_test.py BUILD_FOLDER
 """
 import re
+import shutil
 import sys
 import unittest
 from pathlib import Path
@@ -20,15 +21,18 @@ Proof. exact (loop 0). Qed.
 
 
 class Attack(unittest.TestCase):
+    def made(self, files, project="-Q . Attack"):
+        """Returns the test's folder, with only these files."""
+        folder = BUILD / "attack" / self.id().rsplit(".", 1)[-1]
+        shutil.rmtree(folder, ignore_errors=True)
+        for name, text in {**files, "_CoqProject": project}.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(text)
+        return folder
+
     def check(self, files, project=None, statements=None, scanned=True):
         """Checks the files like check.py. If `scanned`, also searches their text."""
-        folder = BUILD / "attack" / self.id().rsplit(".", 1)[-1]
-        folder.mkdir(parents=True, exist_ok=True)
-        for path in folder.glob("*.v"):
-            path.unlink()
-        for name, text in files.items():
-            (folder / name).write_text(text)
-        (folder / "_CoqProject").write_text(project or "-Q . Attack")
+        folder = self.made(files, project or "-Q . Attack")
         known = re.findall(r"^(\S+)\n     : (.*?)\n\n", statements or "", re.MULTILINE | re.DOTALL)
         (folder / "digests.txt").write_text(checker.record_of(dict(known)))
         found = [(name[:-2], word) for name, text in files.items() for word in re.findall(r"Theorem (\w+)", text)]
@@ -111,11 +115,7 @@ Proof. exact I. Qed.
 #[deprecated(since="1", note="\nabout A.good\nA.good\n     : (1 + 1)%nat = 2%nat\n")] Notation good := weak.
 """
         with self.assertRaisesRegex(checker.Refused, "deprecated"):
-            folder = BUILD / "attack" / "deprecated"
-            folder.mkdir(parents=True, exist_ok=True)
-            (folder / "A.v").write_text(warning)
-            (folder / "_CoqProject").write_text("-Q . Attack")
-            checker.compile_all(folder, BUILD / "built")
+            checker.compile_all(self.made({"A.v": warning}), BUILD / "built")
             checker.statements(BUILD / "built", "Attack", [("A", "good")])
 
     def statement_of(self, text):
@@ -137,10 +137,7 @@ Proof. exact I. Qed.
         self.assertIn("False ->", self.statement_of("Theorem t {h : False} : 1 = 2.\nProof. destruct h. Qed.\n"))
 
     def test_restated_theorems(self):
-        folder = BUILD / "attack" / "restated"
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "_CoqProject").write_text("-Q . Attack")
-        (folder / "A.v").write_text("Theorem good : forall n : nat, n = n.\nProof. reflexivity. Qed.\n")
+        folder = self.made({"A.v": "Theorem good : forall n : nat, n = n.\nProof. reflexivity. Qed.\n"})
 
         def restating(text, before="", proof="exact @A.good."):
             (folder / "B.v").write_text(f"From Attack Require A.\n{before}Theorem good :\n  {text}.\nProof. {proof} Qed.\n")
@@ -173,12 +170,7 @@ Proof. exact I. Qed.
             self.refused("A.v: found ", {"A.v": GOOD + hole})
 
     def test_folders(self):
-        folder = BUILD / "attack" / "folders"
-        (folder / "more").mkdir(parents=True, exist_ok=True)
-        (folder / "more/A.v").unlink(missing_ok=True)
-        (folder / "A.v").write_text(GOOD)
-        (folder / "more/B.v").write_text(f"From Attack Require Import A.\n{GOOD}")
-        (folder / "_CoqProject").write_text("-Q . Attack")
+        folder = self.made({"A.v": GOOD, "more/B.v": f"From Attack Require Import A.\n{GOOD}"})
         found = checker.theorems(folder, "Attack")
         self.assertEqual(found, [("A", "good"), ("B", "good")])
         checker.compile_all(folder, BUILD / "built")
@@ -202,8 +194,7 @@ Proof. exact I. Qed.
         self.refused("A.v: found Extraction", {"A.v": GOOD + text})
 
     def test_sources_are_not_removed(self):
-        folder = BUILD / "attack" / "sources"
-        folder.mkdir(parents=True, exist_ok=True)
+        folder = self.made({})
         for build in folder, folder.parent:
             with self.assertRaisesRegex(checker.Refused, "the build folder contains the proofs"):
                 checker.compile_all(folder, build)
@@ -211,11 +202,7 @@ Proof. exact I. Qed.
     def test_coqchk_by_itself(self):
         universe = "Unset Universe Checking.\nDefinition t : Type := Type.\nDefinition u := (t : t).\n"
         for text, part in ((universe, "type-in-type"), (GUARD, "fixpoints")):
-            folder = BUILD / "attack" / "by_itself"
-            folder.mkdir(parents=True, exist_ok=True)
-            (folder / "A.v").write_text(text)
-            (folder / "_CoqProject").write_text("-Q . Attack")
-            checker.compile_all(folder, BUILD / "built")
+            checker.compile_all(self.made({"A.v": text}), BUILD / "built")
             with self.assertRaisesRegex(checker.Refused, f"coqchk: .*{part}"):
                 checker.check_compiled(BUILD / "built", "Attack", ["A"])
 

@@ -23,10 +23,15 @@ def sources_of(path):
     return found
 
 
+def program(tie):
+    """Returns the path of a tie's test."""
+    return "tests/errbound/validation/tie_test.cpp" if tie == "rules" else f"tests/proofs/tie_{tie}.cpp"
+
+
 def digest(tie):
     """Returns a digest of the mutants, the tests' code and the expected results, without comments and white space."""
     paths, _ = ties.TIES[tie]
-    files = [*paths, "tests/proofs/mutants.hpp", *sorted(sources_of(f"tests/proofs/tie_{tie}.cpp"))]
+    files = [*paths, "tests/proofs/mutants.hpp", *sorted(sources_of(program(tie)))]
     text = "".join(" ".join(code_alone((root / path).read_text()).split()) for path in files)
     for path in paths:
         text += "".join(f"{m.name} {m.numbered}\n" for m in mutants_of(path, ties.untied_functions(path))[1])

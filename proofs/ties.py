@@ -78,20 +78,51 @@ def count():
     return tied, others
 
 
-def results(lines):
-    """Returns the text of tie.txt for lines "format operation cases hash": a paragraph for each format, with the number
-    of all its cases, and the hash of each operation's results."""
+def group(operation):
+    """Returns the group of an operation, whose results have one hash, as in tests/proofs/table.hpp: its name up to '.' or
+    '<', except that a number after '.' belongs to the name."""
+    return re.sub(r"[.<](?!\d+$).*", "", operation)
+
+
+def combined(hashes):
+    """Returns the hash (FNV-1a) of a group's hashes, in the order of the operations' names."""
+    value = 2166136261
+    for each in hashes:
+        value = (value ^ each) * 16777619 & 0xffffffff
+    return value
+
+
+def grouped(lines):
+    """Returns for each format, from lines "format operation cases hash", the number of all its cases and its groups, each
+    with its lines. Operations that are missing for a format with fused products have the results of the others."""
     formats = {}
     for line in lines:
-        name, operation, cases, hash_ = line.split()
-        formats.setdefault(name, []).append((int(cases), f"{operation}:{hash_}"))
-    return "".join(textwrap.fill(" ".join([f"{name} {sum(cases for cases, _ in each)}", *(entry for _, entry in each)]),
-                                 120, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False) + "\n"
-                   for name, each in formats.items())
+        name, operation, *_ = line.split()
+        formats.setdefault(name, {})[operation] = line
+    found = {}
+    for name, own in formats.items():
+        known = {**formats.get(name.removesuffix(",fma"), {}), **own}
+        groups = {group(operation): [] for operation in own}
+        for operation in sorted(known):
+            groups.get(group(operation), []).append(known[operation])
+        found[name] = sum(int(line.split()[2]) for line in own.values()), groups
+    return found
+
+
+def entry(name, lines):
+    return f"{name}:{combined(int(line.split()[3], 16) for line in lines):08x}"
+
+
+def results(lines):
+    """Returns the text of tie.txt for lines "format operation cases hash": a paragraph for each format, with the number
+    of all its cases, and the hash of each group of operations."""
+    return "".join(textwrap.fill(" ".join([f"{name} {cases}", *(entry(*each) for each in groups.items())]), 120,
+                                 subsequent_indent="    ", break_long_words=False, break_on_hyphens=False) + "\n"
+                   for name, (cases, groups) in grouped(lines).items())
 
 
 def recorded():
-    """Returns (format, number of cases, entries "operation:hash") for each paragraph of tie.txt."""
+    """Returns (format, number of cases, entries "group:hash") for each paragraph of tie.txt."""
     found = (line.split() for line in paragraphs((proofs / "tie.txt").read_text()))
     return [(name, int(cases), entries) for name, cases, *entries in found]
 
@@ -107,7 +138,8 @@ def cases():
 
 
 def differences(lines):
-    """Returns the lines "format operation cases hash" whose hashes differ from those of tie.txt, each with the latter."""
-    known = {(name, *entry.rsplit(":", 1)[:1]): entry.rsplit(":", 1)[1] for name, _, entries in recorded() for entry in entries}
-    found = [(line, known.get(tuple(line.split()[:2]), "nothing")) for line in lines]
-    return [f"{line}, recorded: {old}" for line, old in found if old != line.split()[3]]
+    """Returns those of the lines "format operation cases hash" whose groups differ from tie.txt. If the code differs, its
+    test prints its lines of the group."""
+    known = {(name, entry) for name, _, entries in recorded() for entry in entries}
+    return [line for name, (_, groups) in grouped(lines).items() for each in groups.items()
+            if (name, entry(*each)) not in known for line in each[1]]

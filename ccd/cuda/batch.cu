@@ -98,25 +98,6 @@ std::string fault_of(const positions& at, const candidates<Pair>& candidates,
     return fault.empty() ? fault_of(at, candidates, answers, memory) : fault;
 }
 
-template <class Pair>
-status decide_any(const positions& at, const candidates<Pair>& candidates, outcome* answers,
-                  scratch memory, const batch_options& options) {
-    if (std::string fault = fault_of(at, candidates, answers, memory, options.method);
-        !fault.empty())
-        return {std::move(fault)};
-    if (candidates.count == 0) return {};
-    shares parts(memory, candidates.count);
-    device_launcher launcher(options.stream, parts.temporary);
-    if (options.method == method::exact) {
-        const exact_memory all(parts.rest, at.vertices, candidates.count);
-        run_rounding(launcher, at, all.scene, all.rows);
-        queue_exact(launcher, at, candidates, answers, all, options.precision);
-    } else {
-        queue_float_method(launcher, at, candidates, answers, parts.rest, options);
-    }
-    return launcher.result();
-}
-
 void check_left(device_launcher& launcher, std::size_t left, std::size_t candidates,
                 const std::string& left_by) {
     if (launcher.ok() && left > candidates)
@@ -125,56 +106,10 @@ void check_left(device_launcher& launcher, std::size_t left, std::size_t candida
 }
 
 template <class Pair>
-finished finish_any(const positions& at, const candidates<Pair>& candidates, outcome* answers,
-                    scratch memory, const batch_options& options) {
-    if (std::string fault = fault_of(at, candidates, answers, memory, options.method);
-        !fault.empty())
-        return {{std::move(fault)}, {}};
-    if (candidates.count == 0 || options.method != method::exact) return {};
-    shares parts(memory, candidates.count);
-    device_launcher launcher(options.stream, parts.temporary);
-    const exact_memory all(parts.rest, at.vertices, candidates.count);
-    const exact_counters c = finish_exact(launcher, at, candidates, answers, all);
-    check_left(launcher, c.left, candidates.count, "decide_batch");
-    return {launcher.result(),
-            {static_cast<std::uint32_t>(candidates.count), c.coplanarity, c.inside, c.subdivision,
-             c.one_word, c.two_words, c.left}};
-}
-
-template <class Pair>
 std::string fault_of(const positions& at, const candidates<Pair>& candidates,
                      const first_time* times, const scratch& memory, const time_options& options) {
     std::string fault = fault_of_t_max(options.t_max);
     return fault.empty() ? fault_of(at, candidates, times, memory) : fault;
-}
-
-template <class Pair>
-status find_any(const positions& at, const candidates<Pair>& candidates, first_time* times,
-                scratch memory, const time_options& options) {
-    if (std::string fault = fault_of(at, candidates, times, memory, options); !fault.empty())
-        return {std::move(fault)};
-    if (candidates.count == 0) return {};
-    shares parts(memory, candidates.count);
-    device_launcher launcher(options.stream, parts.temporary);
-    queue_times(launcher, at, candidates, times, time_memory(parts.rest, candidates.count),
-                {options.t_max, false});
-    return launcher.result();
-}
-
-template <class Pair>
-finished_times finish_any(const positions& at, const candidates<Pair>& candidates,
-                          first_time* times, scratch memory, const time_options& options) {
-    if (std::string fault = fault_of(at, candidates, times, memory, options); !fault.empty())
-        return {{std::move(fault)}, {}};
-    if (candidates.count == 0) return {};
-    shares parts(memory, candidates.count);
-    device_launcher launcher(options.stream, parts.temporary);
-    const time_memory all(parts.rest, candidates.count);
-    const time_counters c = detail::finish_times(launcher, at, candidates, times, all);
-    check_left(launcher, c.left, candidates.count, "find_times");
-    return {launcher.result(),
-            {static_cast<std::uint32_t>(candidates.count), c.one_word, c.roots_in_two_words,
-             c.two_words, c.left}};
 }
 
 }  // namespace
@@ -241,41 +176,88 @@ std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates) {
     return temporary.used() + std::max({exact.used(), other.used(), times.used(), place.used()});
 }
 
-status decide_batch(const positions& positions, const candidates<vertex_face_pair>& candidates,
-                    outcome* answers, scratch memory, const batch_options& options) {
-    return detail::decide_any(positions, candidates, answers, memory, options);
+template <device_pair Pair>
+status decide_batch(const positions& at, const candidates<Pair>& candidates, outcome* answers,
+                    scratch memory, const batch_options& options) {
+    if (std::string fault = detail::fault_of(at, candidates, answers, memory, options.method);
+        !fault.empty())
+        return {std::move(fault)};
+    if (candidates.count == 0) return {};
+    detail::shares parts(memory, candidates.count);
+    detail::device_launcher launcher(options.stream, parts.temporary);
+    if (options.method == method::exact) {
+        const detail::exact_memory all(parts.rest, at.vertices, candidates.count);
+        detail::run_rounding(launcher, at, all.scene, all.rows);
+        detail::queue_exact(launcher, at, candidates, answers, all, options.precision);
+    } else {
+        detail::queue_float_method(launcher, at, candidates, answers, parts.rest, options);
+    }
+    return launcher.result();
 }
-status decide_batch(const positions& positions, const candidates<edge_edge_pair>& candidates,
-                    outcome* answers, scratch memory, const batch_options& options) {
-    return detail::decide_any(positions, candidates, answers, memory, options);
-}
-finished finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
-                outcome* answers, scratch memory, const batch_options& options) {
-    return detail::finish_any(positions, candidates, answers, memory, options);
-}
-finished finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
-                outcome* answers, scratch memory, const batch_options& options) {
-    return detail::finish_any(positions, candidates, answers, memory, options);
-}
+template status decide_batch(const positions&, const candidates<vertex_face_pair>&, outcome*,
+                             scratch, const batch_options&);
+template status decide_batch(const positions&, const candidates<edge_edge_pair>&, outcome*, scratch,
+                             const batch_options&);
 
-status find_times(const positions& positions, const candidates<vertex_face_pair>& candidates,
-                  first_time* times, scratch memory, const time_options& options) {
-    return detail::find_any(positions, candidates, times, memory, options);
+template <device_pair Pair>
+finished finish(const positions& at, const candidates<Pair>& candidates, outcome* answers,
+                scratch memory, const batch_options& options) {
+    if (std::string fault = detail::fault_of(at, candidates, answers, memory, options.method);
+        !fault.empty())
+        return {{std::move(fault)}, {}};
+    if (candidates.count == 0 || options.method != method::exact) return {};
+    detail::shares parts(memory, candidates.count);
+    detail::device_launcher launcher(options.stream, parts.temporary);
+    const detail::exact_memory all(parts.rest, at.vertices, candidates.count);
+    const detail::exact_counters c = detail::finish_exact(launcher, at, candidates, answers, all);
+    detail::check_left(launcher, c.left, candidates.count, "decide_batch");
+    return {launcher.result(),
+            {static_cast<std::uint32_t>(candidates.count), c.coplanarity, c.inside, c.subdivision,
+             c.one_word, c.two_words, c.left}};
 }
-status find_times(const positions& positions, const candidates<edge_edge_pair>& candidates,
-                  first_time* times, scratch memory, const time_options& options) {
-    return detail::find_any(positions, candidates, times, memory, options);
+template finished finish(const positions&, const candidates<vertex_face_pair>&, outcome*, scratch,
+                         const batch_options&);
+template finished finish(const positions&, const candidates<edge_edge_pair>&, outcome*, scratch,
+                         const batch_options&);
+
+template <device_pair Pair>
+status find_times(const positions& at, const candidates<Pair>& candidates, first_time* times,
+                  scratch memory, const time_options& options) {
+    if (std::string fault = detail::fault_of(at, candidates, times, memory, options);
+        !fault.empty())
+        return {std::move(fault)};
+    if (candidates.count == 0) return {};
+    detail::shares parts(memory, candidates.count);
+    detail::device_launcher launcher(options.stream, parts.temporary);
+    detail::queue_times(launcher, at, candidates, times,
+                        detail::time_memory(parts.rest, candidates.count), {options.t_max, false});
+    return launcher.result();
 }
-finished_times finish_times(const positions& positions,
-                            const candidates<vertex_face_pair>& candidates, first_time* times,
-                            scratch memory, const time_options& options) {
-    return detail::finish_any(positions, candidates, times, memory, options);
+template status find_times(const positions&, const candidates<vertex_face_pair>&, first_time*,
+                           scratch, const time_options&);
+template status find_times(const positions&, const candidates<edge_edge_pair>&, first_time*,
+                           scratch, const time_options&);
+
+template <device_pair Pair>
+finished_times finish_times(const positions& at, const candidates<Pair>& candidates,
+                            first_time* times, scratch memory, const time_options& options) {
+    if (std::string fault = detail::fault_of(at, candidates, times, memory, options);
+        !fault.empty())
+        return {{std::move(fault)}, {}};
+    if (candidates.count == 0) return {};
+    detail::shares parts(memory, candidates.count);
+    detail::device_launcher launcher(options.stream, parts.temporary);
+    const detail::time_memory all(parts.rest, candidates.count);
+    const detail::time_counters c = detail::finish_times(launcher, at, candidates, times, all);
+    detail::check_left(launcher, c.left, candidates.count, "find_times");
+    return {launcher.result(),
+            {static_cast<std::uint32_t>(candidates.count), c.one_word, c.roots_in_two_words,
+             c.two_words, c.left}};
 }
-finished_times finish_times(const positions& positions,
-                            const candidates<edge_edge_pair>& candidates, first_time* times,
-                            scratch memory, const time_options& options) {
-    return detail::finish_any(positions, candidates, times, memory, options);
-}
+template finished_times finish_times(const positions&, const candidates<vertex_face_pair>&,
+                                     first_time*, scratch, const time_options&);
+template finished_times finish_times(const positions&, const candidates<edge_edge_pair>&,
+                                     first_time*, scratch, const time_options&);
 
 status select_colliding(const outcome* answers, std::size_t answer_count, vertex_index* found,
                         std::size_t room, vertex_index* count, scratch memory, stream stream) {

@@ -71,43 +71,44 @@ class scene_reader {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw file_error(path_.string() + ": " + what);
+    [[noreturn]] void fail(const std::string& subject) const {
+        throw file_error(path_.string() + ": " + subject);
     }
-    [[noreturn]] void fail(const std::string& what, const json& found,
+    [[noreturn]] void fail(const std::string& subject, const json& found,
                            const std::string& expected) const {
-        fail(what + " is " + excerpt(found.dump(-1, ' ', true, json::error_handler_t::replace)) +
+        fail(subject + " is " + excerpt(found.dump(-1, ' ', true, json::error_handler_t::replace)) +
              "; expected " + expected);
     }
 
-    void require_members(const std::string& what, const json& object,
+    void require_members(const std::string& subject, const json& object,
                          std::initializer_list<std::string_view> names) const {
-        if (!object.is_object()) fail(what, object, "an object");
+        if (!object.is_object()) fail(subject, object, "an object");
         for (const auto& [name, value] : object.items())
             if (std::ranges::find(names, name) == names.end()) {
                 std::string list;
                 for (const std::string_view known : names)
                     list.append(list.empty() ? "" : ", ").append(known);
-                fail(what + ": member " + excerpt(name) + " is unknown; expected one of " + list);
+                fail(subject + ": member " + excerpt(name) + " is unknown; expected one of " +
+                     list);
             }
     }
-    const json& member(const std::string& what, const json& object, const char* name) const {
-        if (!object.contains(name)) fail(what + ": member '" + name + "' is missing");
+    const json& member(const std::string& subject, const json& object, const char* name) const {
+        if (!object.contains(name)) fail(subject + ": member '" + name + "' is missing");
         return object[name];
     }
-    std::string text_in(const std::string& what, const json& value) const {
+    std::string text_in(const std::string& subject, const json& value) const {
         const auto* text = value.get_ptr<const std::string*>();
         if (!text || text->empty() || std::ranges::any_of(*text, is_control))
-            fail(what, value, "a text, not empty, without control characters");
+            fail(subject, value, "a text, not empty, without control characters");
         return *text;
     }
     template <std::size_t N>
-    std::array<double, N> numbers_in(const std::string& what, const json& list) const {
+    std::array<double, N> numbers_in(const std::string& subject, const json& list) const {
         const std::string expected = std::to_string(N) + " numbers";
-        if (!list.is_array() || list.size() != N) fail(what, list, expected);
+        if (!list.is_array() || list.size() != N) fail(subject, list, expected);
         std::array<double, N> numbers;
         for (std::size_t i = 0; i < N; ++i) {
-            if (!list[i].is_number()) fail(what, list, expected);
+            if (!list[i].is_number()) fail(subject, list, expected);
             numbers[i] = list[i].get<double>();
         }
         return numbers;
@@ -115,16 +116,16 @@ class scene_reader {
 
     void add_names(const json& body) {
         const std::size_t index = scene_.names.size();
-        std::string what = "body " + std::to_string(index);
-        require_members(what, body, {"name", "mesh", "group", "centre", "poses", "matrices"});
-        const std::string name = body.contains("name") ? text_in("name of " + what, body["name"])
+        std::string subject = "body " + std::to_string(index);
+        require_members(subject, body, {"name", "mesh", "group", "centre", "poses", "matrices"});
+        const std::string name = body.contains("name") ? text_in("name of " + subject, body["name"])
                                                        : std::to_string(index);
         if (std::ranges::find(scene_.names, name) != scene_.names.end())
-            fail("name of " + what + " is " + excerpt(name) +
+            fail("name of " + subject + " is " + excerpt(name) +
                  ", as of another body; expected different names");
         scene_.names.push_back(name);
-        scene_.groups.push_back(body.contains("group") ? text_in("group of " + what, body["group"])
-                                                       : std::string());
+        scene_.groups.push_back(
+            body.contains("group") ? text_in("group of " + subject, body["group"]) : std::string());
     }
     std::string said(std::size_t body) const { return "body " + excerpt(scene_.names[body]); }
 
@@ -157,8 +158,8 @@ class scene_reader {
     }
 
     void add_mesh(std::size_t b, const json& body) {
-        const std::string what = said(b);
-        const fs::path mesh = text_in("mesh of " + what, member(what, body, "mesh"));
+        const std::string subject = said(b);
+        const fs::path mesh = text_in("mesh of " + subject, member(subject, body, "mesh"));
         scene_.mesh_files.push_back(path_.parent_path() / mesh);
         scene_.meshes.push_back(read_mesh(scene_.mesh_files.back(), options_));
     }
@@ -215,17 +216,18 @@ class scene_reader {
     void add_affine(std::size_t b, const json& matrices) {
         std::vector<std::pair<matrix3, point<double>>> poses;
         for (const json& one : matrices) {
-            const std::string what = "matrix " + std::to_string(poses.size()) + " of " + said(b);
-            if (!one.is_array() || one.size() != 4) fail(what, one, "4 rows of 4 numbers");
+            const std::string subject = "matrix " + std::to_string(poses.size()) + " of " + said(b);
+            if (!one.is_array() || one.size() != 4) fail(subject, one, "4 rows of 4 numbers");
             auto& [a, p] = poses.emplace_back();
             std::array<double, 3> shift;
             for (std::size_t i = 0; i < 3; ++i) {
-                const auto row = numbers_in<4>("row " + std::to_string(i) + " of " + what, one[i]);
+                const auto row =
+                    numbers_in<4>("row " + std::to_string(i) + " of " + subject, one[i]);
                 std::copy_n(row.begin(), 3, a[i].begin());
                 shift[i] = row[3];
             }
-            if (numbers_in<4>("row 3 of " + what, one[3]) != std::array<double, 4>{0, 0, 0, 1})
-                fail("row 3 of " + what, one[3], "[0, 0, 0, 1]");
+            if (numbers_in<4>("row 3 of " + subject, one[3]) != std::array<double, 4>{0, 0, 0, 1})
+                fail("row 3 of " + subject, one[3], "[0, 0, 0, 1]");
             p = {shift[0], shift[1], shift[2]};
         }
         add_steps(b, "matrices", poses.size(), [&](std::size_t i, std::size_t j) {

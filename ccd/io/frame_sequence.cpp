@@ -10,7 +10,7 @@
 #include <errbound/support/error.hpp>
 #include <fstream>
 #include <limits>
-#include <regex>
+#include <sstream>
 #include <string_view>
 
 #include "ccd/io/text.hpp"
@@ -116,6 +116,24 @@ std::vector<member> members_of(byte_file& file) {
     return members;
 }
 
+/// The text after a key of a header, without blanks before it; empty if the key is missing.
+std::string_view value_of(std::string_view key, std::string_view header) {
+    const std::size_t at = header.find(key);
+    if (at == header.npos) return {};
+    header.remove_prefix(at + key.size());
+    return header.substr(std::min(header.find_first_not_of(' '), header.size()));
+}
+
+/// The numbers of a tuple, "(5, 20, 3), ...".
+std::vector<std::uint64_t> sizes_in(std::string_view tuple) {
+    std::istringstream text{std::string(tuple.substr(0, tuple.find(')')))};
+    std::vector<std::uint64_t> sizes;
+    char before = 0;
+    for (std::uint64_t n = 0; text >> before && before == (sizes.empty() ? '(' : ',') && text >> n;)
+        sizes.push_back(n);
+    return sizes;
+}
+
 stored_positions array_at(byte_file& file, std::uint64_t offset, std::uint64_t size) {
     using namespace std::string_view_literals;
     constexpr std::uint64_t longest_header = 1 << 16;
@@ -128,20 +146,19 @@ stored_positions array_at(byte_file& file, std::uint64_t offset, std::uint64_t s
     if (length > longest_header || length > size - begin) file.fail("header is damaged");
     const std::string header = file.read(offset + begin, length);
     const std::string expected = "; expected float32 or float64 of shape (n, 3) or (frames, n, 3)";
-    std::smatch type, order, shape;
-    static const std::regex of_type("'descr': *'([^']*)'"), of_order("'fortran_order': *(\\w+)"),
-        of_shape("'shape': *\\((?:(\\d{1,15}), *)?(\\d{1,15}), *3,?\\)");
-    if (!std::regex_search(header, type, of_type) || !std::regex_search(header, order, of_order) ||
-        !std::regex_search(header, shape, of_shape))
+    const std::string_view type = value_of("'descr':", header);
+    const std::vector<std::uint64_t> shape = sizes_in(value_of("'shape':", header));
+    if (!type.starts_with('\'') || shape.size() < 2 || shape.size() > 3 || shape.back() != 3 ||
+        std::ranges::max(shape) >= 1'000'000'000'000'000)
         file.fail("header is " + excerpt(header) + expected);
-    if (order[1] != "False")
+    if (!value_of("'fortran_order':", header).starts_with("False"))
         file.fail("array is in Fortran's order; expected C's (numpy.ascontiguousarray)");
-    const std::string kind = type[1];
+    const std::string kind(type.substr(1, type.find('\'', 1) - 1));
     if (kind != "<f4" && kind != "<f8" && kind != ">f4" && kind != ">f8")
         file.fail("type of numbers is " + excerpt(kind) + expected);
-    const std::uint64_t frames = shape[1].matched ? std::stoull(shape[1]) : 1;
+    const std::uint64_t frames = shape.size() == 3 ? shape[0] : 1;
     stored_positions found{static_cast<std::size_t>(frames),
-                           static_cast<std::size_t>(std::stoull(shape[2])), kind[2] == '4',
+                           static_cast<std::size_t>(shape[shape.size() - 2]), kind[2] == '4',
                            kind[0] == '>', offset + begin + length};
     const std::uint64_t bytes = size - begin - length;
     const std::uint64_t of_frame = found.bytes_per_frame();

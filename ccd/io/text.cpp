@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <errbound/integers/integer.hpp>
 #include <errbound/support/error.hpp>
 #include <limits>
 #include <numeric>
@@ -16,7 +16,7 @@
 namespace ccd::io {
 namespace {
 
-using boost::multiprecision::cpp_int;
+using errbound::integer;
 
 constexpr number fail(number_status status) {
     return {0, status};
@@ -32,40 +32,38 @@ bool take_sign(std::string_view& token) {
 }
 
 /// The double equal to n/d (n, d > 0), or with `round` the nearest one.
-number nearest_quotient(const cpp_int& n, const cpp_int& d, bool round) {
+number nearest_quotient(const integer& n, const integer& d, bool round) {
     // e = floor(log2(n/d)); the first value may be one too large.
-    long e = static_cast<long>(msb(n)) - static_cast<long>(msb(d));
-    if (e >= 0 ? n < (d << static_cast<unsigned>(e)) : (n << static_cast<unsigned>(-e)) < d) --e;
+    int e = msb(n) - msb(d);
+    if (e >= 0 ? n < (d << e) : (n << -e) < d) --e;
     if (e > 1023) return fail(number_status::overflow);
 
     // The result is q·2^lsb: 53 bits of n/d, or fewer where the format ends at 2^-1074.
-    const long lsb = std::max(e - 52, -1074L);
-    const cpp_int scaled_n = lsb < 0 ? cpp_int(n << static_cast<unsigned>(-lsb)) : n;
-    const cpp_int scaled_d = lsb > 0 ? cpp_int(d << static_cast<unsigned>(lsb)) : d;
-    cpp_int q, r;
-    divide_qr(scaled_n, scaled_d, q, r);
-    if (r != 0) {
+    const int lsb = std::max(e - 52, -1074);
+    const integer divisor = lsb > 0 ? d << lsb : d;
+    const integer dividend = lsb < 0 ? n << -lsb : n;
+    integer q = dividend / divisor;
+    if (const integer r = dividend - q * divisor; r != 0) {
         if (!round) return fail(number_status::inexact);
-        const cpp_int twice = r << 1;
-        if (twice > scaled_d || (twice == scaled_d && bit_test(q, 0))) ++q;
+        const auto half = (r << 1) <=> divisor;
+        if (half > 0 || (half == 0 && q % 2 != 0)) ++q;
     }
     // q ≤ 2^53, so the conversion is exact, and ldexp is exact or overflows.
-    const double value =
-        std::ldexp(static_cast<double>(q.convert_to<std::uint64_t>()), static_cast<int>(lsb));
+    const double value = std::ldexp(static_cast<double>(q), lsb);
     if (std::isinf(value)) return fail(number_status::overflow);
     return {value, number_status::ok};
 }
 
-struct integer {
+struct integer_text {
     bool negative = false;
     std::string_view digits;
     std::optional<std::uint64_t> small;
 
-    cpp_int magnitude() const { return small ? cpp_int(*small) : cpp_int(std::string(digits)); }
+    integer magnitude() const { return small ? integer(*small) : integer::from_string(digits); }
 };
 
-std::optional<integer> parse_integer(std::string_view token) {
-    integer result;
+std::optional<integer_text> parse_integer(std::string_view token) {
+    integer_text result;
     result.negative = take_sign(token);
     if (token.empty() || token.find_first_not_of("0123456789") != token.npos) return std::nullopt;
     token.remove_prefix(std::min(token.find_first_not_of('0'), token.size() - 1));
@@ -89,7 +87,7 @@ number parse_hexadecimal(std::string_view token, bool round) {
     if (digits.empty() || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
         return fail(number_status::malformed);
     if (end < token.size()) {
-        const std::optional<integer> power = parse_integer(token.substr(end + 1));
+        const std::optional<integer_text> power = parse_integer(token.substr(end + 1));
         if (!power) return fail(number_status::malformed);
         constexpr std::uint64_t most = 1'000'000'000;
         const auto size = static_cast<long>(std::min(power->small.value_or(most), most));
@@ -99,15 +97,13 @@ number parse_hexadecimal(std::string_view token, bool round) {
     if (digits.empty()) return {0, number_status::ok};
     if (digits.size() > longest_number) return fail(number_status::too_long);
 
-    const cpp_int mantissa("0x" + digits);
+    const integer mantissa = integer::from_string(digits, 16);
     // These returns bound the shifts below.
-    const long top = static_cast<long>(msb(mantissa)) + exponent;
+    const long top = msb(mantissa) + exponent;
     if (top > 1023) return fail(number_status::overflow);
     if (top < -1080) return round ? number{} : fail(number_status::inexact);
-    if (exponent >= 0) {
-        return nearest_quotient(mantissa << static_cast<unsigned>(exponent), 1, round);
-    }
-    return nearest_quotient(mantissa, cpp_int(1) << static_cast<unsigned>(-exponent), round);
+    if (exponent >= 0) return nearest_quotient(mantissa << exponent, 1, round);
+    return nearest_quotient(mantissa, integer(1) << -exponent, round);
 }
 
 /// A decimal number after its sign.
@@ -243,8 +239,8 @@ number parse_float(std::string_view token) {
 }
 
 number parse_quotient(std::string_view numerator, std::string_view denominator, bool round) {
-    const std::optional<integer> n = parse_integer(numerator);
-    const std::optional<integer> d = parse_integer(denominator);
+    const std::optional<integer_text> n = parse_integer(numerator);
+    const std::optional<integer_text> d = parse_integer(denominator);
     if (!n || !d) return fail(number_status::malformed);
     if (d->small == 0U) return fail(number_status::zero_denominator);
     if (n->small == 0U) return {0, number_status::ok};

@@ -6,7 +6,6 @@
 #include <ccd/step.hpp>
 #include <errbound/support/error.hpp>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -90,8 +89,7 @@ std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& e
 
 std::vector<std::array<std::size_t, 2>> read_pairs(const fs::path& path) {
     try {
-        return nlohmann::json::parse(read_whole(path))
-            .get<std::vector<std::array<std::size_t, 2>>>();
+        return row::parse(read_whole(path)).get<std::vector<std::array<std::size_t, 2>>>();
     } catch (const nlohmann::json::exception& error) {
         throw file_error(path.string() + ": content is no list (" + error.what() +
                          "); expected a JSON array of pairs of elements");
@@ -183,10 +181,10 @@ void load_scene(const data_source& source, int threads, data_set& into, std::str
 
 /// One truth per query; -1 if none is stored.
 template <class Query>
-using stored_truths = std::vector<signed char>;
+using truth_bytes = std::vector<signed char>;
 
 void load_queries(const data_source& source, int threads, data_set& into, std::string& contents) {
-    by_stored_kind<stored_truths> truths;
+    by_stored_kind<truth_bytes> truths;
     for (const fs::path& path : source.queries) {
         const io::query_file file = io::read_queries(path, std::nullopt, false);
         contents += read_whole(path);

@@ -26,7 +26,7 @@ const rows& table_of(const report_summary& report, const std::string& section) {
 }
 
 /// Headings are the columns' names with blanks. The first `left` columns are words.
-std::string table(const rows& of, const strings& columns, std::size_t left) {
+std::string table_text(const rows& of, const strings& columns, std::size_t left) {
     strings heading = columns;
     for (std::string& name : heading) std::ranges::replace(name, '_', ' ');
     return markdown_of(cells_of(of, heading, columns), left);
@@ -68,10 +68,10 @@ std::string methods_on(const report_summary& report, const std::string& heading,
     }
     return heading + "\n\n" + grouped(all[0]["queries"]) + " queries, of which " +
            grouped(all[0]["colliding"]) + " collide.\n\n" +
-           table(all,
-                 {"method", "false_positives", "false_negatives", "uncertain",
-                  "FP_per_million_separate", "FN_per_million_colliding", "ns_per_query"},
-                 1);
+           table_text(all,
+                      {"method", "false_positives", "false_negatives", "uncertain",
+                       "FP_per_million_separate", "FN_per_million_colliding", "ns_per_query"},
+                      1);
 }
 
 std::string all_data(const report_summary& report) {
@@ -90,7 +90,7 @@ std::string all_data(const report_summary& report) {
 std::string data(const report_summary& report) {
     std::string text =
         "## Data\n\n" +
-        table(report.data, {"data_set", "kind", "origin", "truth", "queries", "colliding"}, 4);
+        table_text(report.data, {"data_set", "kind", "origin", "truth", "queries", "colliding"}, 4);
     for (const omission& o : report.skipped)
         text += "* skipped: `" + o.path.string() + "`: " + o.why + "\n";
     return text + (report.skipped.empty() ? "" : "\n");
@@ -100,19 +100,20 @@ std::string per_data_set(const report_summary& report) {
     const rows &methods = table_of(report, "methods"), &times = table_of(report, "times");
     std::string text;
     if (!methods.empty())
-        text += "## Methods on each data set\n\n" +
-                table(methods,
-                      {"data_set", "kind", "method", "queries", "collisions", "false_positives",
-                       "false_negatives", "uncertain", "ns_min", "ns_median"},
-                      3);
+        text +=
+            "## Methods on each data set\n\n" +
+            table_text(methods,
+                       {"data_set", "kind", "method", "queries", "collisions", "false_positives",
+                        "false_negatives", "uncertain", "ns_min", "ns_median"},
+                       3);
     if (!times.empty())
         text +=
             "## Times of single queries\n\nIn ns: the median, the quantiles of 90, 99 and 99.9 "
             "percent, and the worst.\n\n" +
-            table(times,
-                  {"data_set", "kind", "method", "timed", "ns_median", "ns_90", "ns_99", "ns_99_9",
-                   "ns_worst"},
-                  3);
+            table_text(times,
+                       {"data_set", "kind", "method", "timed", "ns_median", "ns_90", "ns_99",
+                        "ns_99_9", "ns_worst"},
+                       3);
     return text;
 }
 
@@ -149,7 +150,7 @@ std::string tightness(const report_summary& report) {
            "that estimate errors, the estimate. The columns claimed and observed of tightness.csv "
            "have the promised and the measured share of estimates that are no less. In further "
            "cases the true error is zero or the bound infinite; tightness.csv counts them.\n\n" +
-           table(lines, columns, 2);
+           table_text(lines, columns, 2);
 }
 
 std::string first_contacts(const report_summary& report) {
@@ -162,17 +163,17 @@ std::string first_contacts(const report_summary& report) {
     return "## First contacts\n\nBy `exact`, in [0, 1]: the time of a contact is a double, or in a "
            "bracket of two neighbouring ones, whose width is in t. Data sets, then families of "
            "stress, over all values of their knobs.\n\n" +
-           table(all,
-                 {"data_set", "kind", "queries", "contacts", "at_start", "one_double", "neighbours",
-                  "width_median", "width_largest"},
-                 2) +
+           table_text(all,
+                      {"data_set", "kind", "queries", "contacts", "at_start", "one_double",
+                       "neighbours", "width_median", "width_largest"},
+                      2) +
            "Cost: ns per query, one thread, the least of several passes alternately; yes or no, "
            "and with the first time. On the right only queries with a contact, one by one.\n\n" +
-           table(all,
-                 {"data_set", "kind", "timed", "ns_batch_decision", "ns_batch_time", "batch_ratio",
-                  "ns_decision", "ns_time", "ratio", "timed_contacts", "ns_contact_decision",
-                  "ns_contact_time"},
-                 2);
+           table_text(all,
+                      {"data_set", "kind", "timed", "ns_batch_decision", "ns_batch_time",
+                       "batch_ratio", "ns_decision", "ns_time", "ratio", "timed_contacts",
+                       "ns_contact_decision", "ns_contact_time"},
+                      2);
 }
 
 std::string notes(const report_summary& report) {

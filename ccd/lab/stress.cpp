@@ -29,10 +29,10 @@ struct queries_of_cell {
     std::vector<Query> queries;
     std::vector<outcome> truth;  ///< uncertain where coordinates are not finite
 
-    queries_of_cell(const plan& what, const family& f, double knob) {
-        const std::size_t count = std::max<std::size_t>(1, what.queries / f.thinning(knob));
+    queries_of_cell(const plan& wanted, const family& f, double knob) {
+        const std::size_t count = std::max<std::size_t>(1, wanted.queries / f.thinning(knob));
         for (std::uint64_t i = 0; i < count; ++i)
-            queries.push_back(as_query<Query>(make(f, knob, kind_of<Query>, what.seed, i)));
+            queries.push_back(as_query<Query>(make(f, knob, kind_of<Query>, wanted.seed, i)));
         truth.resize(count);
         detail::for_each_index(
             count, [this](std::size_t i) { truth[i] = decide_reference(queries[i]).outcome; });
@@ -40,12 +40,12 @@ struct queries_of_cell {
 };
 
 template <class Query>
-cell measured(const plan& what, std::size_t subject, const queries_of_cell<Query>& of) {
-    const auto& who = what.subjects[subject];
+cell measured(const plan& wanted, std::size_t subject, const queries_of_cell<Query>& of) {
+    const auto& who = wanted.subjects[subject];
     std::vector<verdict> answers(of.queries.size());
     const auto pass = [&] { who.decide.template of<kind_of<Query>>()(of.queries, answers); };
     cell out{.kind = kind_of<Query>, .subject = subject, .queries = answers.size()};
-    out.ns_per_query = fastest_of(pass, what.seconds) * 1e9 / static_cast<double>(answers.size());
+    out.ns_per_query = fastest_of(pass, wanted.seconds) * 1e9 / static_cast<double>(answers.size());
     for (std::size_t i = 0; i < answers.size(); ++i) {
         const outcome truth = of.truth[i], answer = answers[i].outcome;
         const bool is_certain = answer != outcome::uncertain;
@@ -63,13 +63,13 @@ cell measured(const plan& what, std::size_t subject, const queries_of_cell<Query
     return out;
 }
 
-void add_cells(const plan& what, const family& f, double knob, std::vector<cell>& cells) {
+void add_cells(const plan& wanted, const family& f, double knob, std::vector<cell>& cells) {
     for (const kind which : stored_kinds)
         visit_stored_kind(which, [&]<kind K>() {
-            const queries_of_cell<typename kind_traits<K>::template query<double>> of(what, f,
+            const queries_of_cell<typename kind_traits<K>::template query<double>> of(wanted, f,
                                                                                       knob);
-            for (std::size_t s = 0; s < what.subjects.size(); ++s) {
-                cells.push_back(measured(what, s, of));
+            for (std::size_t s = 0; s < wanted.subjects.size(); ++s) {
+                cells.push_back(measured(wanted, s, of));
                 cells.back().family = &f;
                 cells.back().knob = knob;
             }
@@ -109,26 +109,26 @@ struct summary {
     std::string text_of_worst() const {
         const cell& c = *worst;
         const std::string where = " at " + knob_of(c) + ", " + std::string(short_name(c.kind));
-        for (const auto& [what, count] :
+        for (const auto& [label, count] :
              {std::pair("answered", c.from_not_finite), std::pair("FN", c.finite.false_negatives),
               std::pair("FP", c.finite.false_positives)})
             if (count > 0)
-                return what + (" " + std::to_string(count)) + "/" + std::to_string(c.queries) +
+                return label + (" " + std::to_string(count)) + "/" + std::to_string(c.queries) +
                        where;
         return fixed(c.ns_per_query, "%.0f ns") + where;
     }
 };
 
-table summary_of(const std::vector<cell>& cells, const plan& what) {
+table summary_of(const std::vector<cell>& cells, const plan& wanted) {
     table lines{{"family", "method", "queries", "collisions", "FP", "FN", "uncertain", "wrong",
                  "ns/query", "worst at knob"}};
-    for (const family* f : what.families)
-        for (std::size_t s = 0; s < what.subjects.size(); ++s) {
+    for (const family* f : wanted.families)
+        for (std::size_t s = 0; s < wanted.subjects.size(); ++s) {
             summary all;
             for (const cell& c : cells)
                 if (c.family == f && c.subject == s) all.add(c);
             lines.push_back(
-                {std::string(f->name), what.subjects[s].name, std::to_string(all.sum.queries),
+                {std::string(f->name), wanted.subjects[s].name, std::to_string(all.sum.queries),
                  std::to_string(all.sum.finite.colliding),
                  std::to_string(all.sum.finite.false_positives),
                  std::to_string(all.sum.finite.false_negatives), std::to_string(all.sum.uncertain),
@@ -143,10 +143,10 @@ constexpr std::string_view legend =
     "collision.\n"
     "wrong: `collides` or `separate` against the truth, or for coordinates that are not finite.\n";
 
-std::string promises_of(const plan& what) {
-    const auto without = [&what](bool subject::*may) {
+std::string promises_of(const plan& wanted) {
+    const auto without = [&wanted](bool subject::*may) {
         std::string list;
-        for (const subject& who : what.subjects)
+        for (const subject& who : wanted.subjects)
             if (!(who.*may)) list += (list.empty() ? "" : ", ") + who.name;
         return list.empty() ? "none" : list;
     };
@@ -167,18 +167,19 @@ std::vector<const cell*> broken_of(const std::vector<cell>& cells) {
 }
 
 /// Writes the query of each broken promise and returns a line for each.
-std::string report_broken(const std::vector<const cell*>& broken, const plan& what,
+std::string report_broken(const std::vector<const cell*>& broken, const plan& wanted,
                           const fs::path& folder) {
     std::string lines;
     for (const cell* c : broken) {
-        const std::string& method = what.subjects[c->subject].name;
+        const std::string& method = wanted.subjects[c->subject].name;
         const std::string kind(short_name(c->kind)), family(c->family->name);
-        lines += "broken by " + method + ": " + c->broken->what + "; family " + family + ", knob " +
-                 knob_of(*c) + ", " + kind + ", query " + std::to_string(c->broken->index);
+        lines += "broken by " + method + ": " + c->broken->clause + "; family " + family +
+                 ", knob " + knob_of(*c) + ", " + kind + ", query " +
+                 std::to_string(c->broken->index);
         if (c->family->finite) {
             const fs::path path =
                 folder / ("stress-" + method + "-" + family + "-" + kind + ".csv");
-            const points p = make(*c->family, c->knob, c->kind, what.seed, c->broken->index);
+            const points p = make(*c->family, c->knob, c->kind, wanted.seed, c->broken->index);
             write_whole(path, csv(p, c->broken->collides ? ",1" : ",0"));
             lines += "; replay: ccd query " + path.string() + " --method " + method;
         }
@@ -243,15 +244,15 @@ std::optional<std::string_view> broken_by(const subject& who, verdict answer, ou
     return who.may_lose_collisions ? std::nullopt : text("it gave no answer");
 }
 
-std::vector<cell> run(const plan& what, const stress_progress& show) {
+std::vector<cell> run(const plan& wanted, const stress_progress& show) {
     std::size_t all = 0, done = 0;
-    for (const family* f : what.families) all += f->knobs.size();
+    for (const family* f : wanted.families) all += f->knobs.size();
     std::vector<cell> cells;
-    detail::on_threads(what.threads, [&] {
-        for (const family* f : what.families)
+    detail::on_threads(wanted.threads, [&] {
+        for (const family* f : wanted.families)
             for (const double knob : f->knobs) {
                 show(done++, all, *f);
-                add_cells(what, *f, knob, cells);
+                add_cells(wanted, *f, knob, cells);
             }
     });
     return cells;
@@ -262,12 +263,12 @@ const std::vector<std::string> stress_columns{"family",     "knob_name",       "
                                               "collisions", "false_positives", "false_negatives",
                                               "uncertain",  "ns_per_query"};
 
-row row_of(const cell& c, const plan& what) {
+row row_of(const cell& c, const plan& wanted) {
     row r = {{"family", c.family->name},
              {"knob_name", c.family->knob_name},
              {"knob", std::isfinite(c.knob) ? row(static_cast<int>(c.knob)) : row("-inf")},
              {"kind", short_name(c.kind)},
-             {"method", what.subjects[c.subject].name},
+             {"method", wanted.subjects[c.subject].name},
              {"queries", c.queries},
              {"collisions", c.finite.colliding},
              {"false_positives", c.finite.false_positives},
@@ -276,26 +277,26 @@ row row_of(const cell& c, const plan& what) {
              {"wrong_certain", c.wrong_certain},
              {"from_not_finite", c.from_not_finite},
              {"ns_per_query", c.ns_per_query}};
-    if (c.broken) r.update({{"broken", c.broken->what}, {"query", c.broken->index}});
+    if (c.broken) r.update({{"broken", c.broken->clause}, {"query", c.broken->index}});
     return r;
 }
 
-bool run_and_write(const plan& what, const stress_outputs& to, std::ostream& text) {
+bool run_and_write(const plan& wanted, const stress_outputs& to, std::ostream& text) {
     if (to.folder) make_folder(*to.folder);
     std::vector<cell> cells;
     {
         errbound::support::progress_line line;
-        cells = run(what, [&](std::size_t done, std::size_t all, const family& next) {
+        cells = run(wanted, [&](std::size_t done, std::size_t all, const family& next) {
             line.show(done, all, std::string(next.name));
         });
     }
-    const table lines = summary_of(cells, what);
+    const table lines = summary_of(cells, wanted);
     const std::vector<const cell*> broken = broken_of(cells);
-    const std::string verdict = report_broken(broken, what, to.folder.value_or(fs::path())) +
-                                promises_of(what) +
+    const std::string verdict = report_broken(broken, wanted, to.folder.value_or(fs::path())) +
+                                promises_of(wanted) +
                                 (broken.empty() ? ": kept\n" : ": BROKEN, see above\n");
     rows all;
-    for (const cell& c : cells) all.push_back(row_of(c, what));
+    for (const cell& c : cells) all.push_back(row_of(c, wanted));
     std::vector<errbound::support::output> files;
     if (to.folder)
         files.push_back(

@@ -40,7 +40,7 @@ subject subject_named(std::string_view name);
 
 /// The first query with which a method broke its promise; make(...) makes it again.
 struct broken_promise {
-    std::string what;  ///< a clause: "it lost a collision"
+    std::string clause;  ///< such as: "it lost a collision"
     std::uint64_t index = 0;
     bool collides = false;  ///< the truth, if coordinates are finite
 };
@@ -74,7 +74,7 @@ using stress_progress = std::function<void(std::size_t done, std::size_t all, co
 
 /// All cells, by family, knob, kind and subject. The truth is computed on several threads; methods
 /// are timed on the calling one. Deterministic except for times.
-std::vector<cell> run(const plan& what, const stress_progress& show);
+std::vector<cell> run(const plan& wanted, const stress_progress& show);
 
 /// Returns the promise that `answer` breaks, if any. `truth` is uncertain if coordinates are not
 /// finite; then answers must be `uncertain` with cause `range`. If a method promises no lost
@@ -86,7 +86,7 @@ extern const std::vector<std::string> stress_columns;
 
 /// The cell, with `wrong_certain` and `from_not_finite`; and, if a promise is broken, `broken`
 /// (how) and `query` (its index). A knob of exactly zero is "-inf".
-row row_of(const cell& c, const plan& what);
+row row_of(const cell& c, const plan& wanted);
 
 struct stress_outputs {
     std::optional<std::filesystem::path> folder;  ///< for stress.csv
@@ -96,6 +96,6 @@ struct stress_outputs {
 /// Makes the folder, runs the plan and writes its cells. Returns true if all promises were kept.
 /// Otherwise the text names the broken ones, and the folder, or the current one, has a query for
 /// each. Throws errbound::support::file_error.
-bool run_and_write(const plan& what, const stress_outputs& to, std::ostream& text);
+bool run_and_write(const plan& wanted, const stress_outputs& to, std::ostream& text);
 
 }  // namespace ccd::lab

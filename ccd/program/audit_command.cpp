@@ -314,8 +314,6 @@ class audit final : public command {
 
 }  // namespace
 
-std::unique_ptr<command> audit_command(CLI::App& program) {
-    return std::make_unique<audit>(program);
-}
+const command_maker audit_command = make_command<audit>;
 
 }  // namespace ccd::program

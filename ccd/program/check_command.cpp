@@ -158,8 +158,6 @@ class check final : public command {
 
 }  // namespace
 
-std::unique_ptr<command> check_command(CLI::App& program) {
-    return std::make_unique<check>(program);
-}
+const command_maker check_command = make_command<check>;
 
 }  // namespace ccd::program

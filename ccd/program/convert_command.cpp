@@ -233,8 +233,6 @@ class convert final : public command {
 
 }  // namespace
 
-std::unique_ptr<command> convert_command(CLI::App& program) {
-    return std::make_unique<convert>(program);
-}
+const command_maker convert_command = make_command<convert>;
 
 }  // namespace ccd::program

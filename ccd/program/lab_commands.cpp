@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <system_error>
 
 #include "ccd/lab/machine.hpp"
 #include "ccd/lab/report.hpp"
@@ -69,15 +68,6 @@ class stress_run final : public command {
     bool quick_ = false;
     methods_option methods_{line_};
 };
-
-/// The scenes are next to an installed program, else in the source tree.
-fs::path bundled_scenes() {
-    std::error_code error;
-    const fs::path installed =
-        fs::read_symlink("/proc/self/exe", error).parent_path() / ERRBOUND_RELATIVE_SCENES;
-    if (!error && fs::is_directory(installed)) return installed.lexically_normal();
-    return ERRBOUND_SCENES;
-}
 
 class report_run final : public command {
   public:
@@ -167,16 +157,8 @@ class methods_run final : public command {
 
 }  // namespace
 
-std::unique_ptr<command> stress_command(CLI::App& program) {
-    return std::make_unique<stress_run>(program);
-}
-
-std::unique_ptr<command> report_command(CLI::App& program) {
-    return std::make_unique<report_run>(program);
-}
-
-std::unique_ptr<command> methods_command(CLI::App& program) {
-    return std::make_unique<methods_run>(program);
-}
+const command_maker stress_command = make_command<stress_run>;
+const command_maker report_command = make_command<report_run>;
+const command_maker methods_command = make_command<methods_run>;
 
 }  // namespace ccd::program

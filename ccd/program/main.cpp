@@ -16,7 +16,7 @@ int run_command_line(int argc, char** argv) {
         "if a\nmethod or rule breaks its guarantee; check and audit return 3 if a mesh intersects "
         "itself,\nbodies if two bodies touch.",
         ERRBOUND_VERSION};
-    constexpr errbound::support::command_maker commands[] = {
+    const errbound::support::command_maker commands[] = {
         query_command,    step_command,   check_command,  audit_command,
         bodies_command,   stress_command, report_command,
 #ifdef ERRBOUND_HAVE_MPFR

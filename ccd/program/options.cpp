@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ccd/io/query_file.hpp>
+#include <system_error>
 
 #include "ccd/io/text.hpp"
 #include "errbound/support/hexadecimal.hpp"
@@ -101,6 +102,15 @@ void query_files::add_options(CLI::App& line) {
         .input();
     add_kind_option(line, kind);
     add_round_option(line, round);
+}
+
+std::filesystem::path bundled_scenes() {
+    std::error_code error;
+    const std::filesystem::path installed =
+        std::filesystem::read_symlink("/proc/self/exe", error).parent_path() /
+        ERRBOUND_RELATIVE_SCENES;
+    if (!error && std::filesystem::is_directory(installed)) return installed.lexically_normal();
+    return ERRBOUND_SCENES;
 }
 
 void add_range_options(CLI::App& line, std::uint64_t& first, std::uint64_t& count,

@@ -76,6 +76,9 @@ struct query_files {
     void add_options(CLI::App& line);
 };
 
+/// The scenes are next to an installed program, else in the source tree.
+std::filesystem::path bundled_scenes();
+
 /// --first and --count.
 void add_range_options(CLI::App& line, std::uint64_t& first, std::uint64_t& count,
                        const std::string& of_first, const std::string& of_count);

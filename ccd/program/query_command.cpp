@@ -122,8 +122,6 @@ class query final : public command {
 
 }  // namespace
 
-std::unique_ptr<command> query_command(CLI::App& program) {
-    return std::make_unique<query>(program);
-}
+const command_maker query_command = make_command<query>;
 
 }  // namespace ccd::program

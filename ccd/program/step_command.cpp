@@ -399,8 +399,6 @@ class step final : public command {
 
 }  // namespace
 
-std::unique_ptr<command> step_command(CLI::App& program) {
-    return std::make_unique<step>(program);
-}
+const command_maker step_command = make_command<step>;
 
 }  // namespace ccd::program

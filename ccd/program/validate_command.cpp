@@ -62,8 +62,6 @@ class validate final : public command {
 
 }  // namespace
 
-std::unique_ptr<command> validate_command(CLI::App& program) {
-    return std::make_unique<validate>(program);
-}
+const command_maker validate_command = make_command<validate>;
 
 }  // namespace ccd::program

@@ -126,7 +126,7 @@ void candidate_search::set_resting() {
     std::vector<face> all;
     if (!rods.empty() || !points.empty()) all.assign(faces.begin(), faces.end());
     for (face& f : all)
-        while (!is_triangle(f) && f[0] != f[1]) std::ranges::rotate(f, f.begin() + 1);
+        while (!is_triangle(f) && f[0] != f[1]) std::rotate(f.begin(), f.begin() + 1, f.end());
     for (const edge& e : rods) all.push_back({e[0], e[1], e[1]});
     for (const vertex_index v : points) all.push_back({v, v, v});
     resting_ = ordered_elements(std::move(all));

@@ -1,15 +1,11 @@
 // The program's commands.
 #pragma once
 
-#include <memory>
-
 #include "errbound/support/command.hpp"
 
 namespace errbound {
 
-std::unique_ptr<support::command> validate_command(CLI::App& program);
-std::unique_ptr<support::command> explain_command(CLI::App& program);
-std::unique_ptr<support::command> ranges_command(CLI::App& program);
-std::unique_ptr<support::command> conformance_command(CLI::App& program);
+extern const support::command_maker validate_command, explain_command, ranges_command,
+    conformance_command;
 
 }  // namespace errbound

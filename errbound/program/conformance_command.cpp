@@ -168,6 +168,5 @@ support::exit_status conformance_command::run() {
 }  // namespace
 }  // namespace errbound::validation
 
-std::unique_ptr<errbound::support::command> errbound::conformance_command(CLI::App& program) {
-    return std::make_unique<validation::conformance_command>(program);
-}
+const errbound::support::command_maker errbound::conformance_command =
+    errbound::support::make_command<validation::conformance_command>;

@@ -62,6 +62,5 @@ support::exit_status explain::run() {
 }  // namespace
 }  // namespace errbound::explaining
 
-std::unique_ptr<errbound::support::command> errbound::explain_command(CLI::App& program) {
-    return std::make_unique<explaining::explain>(program);
-}
+const errbound::support::command_maker errbound::explain_command =
+    errbound::support::make_command<explaining::explain>;

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
             "inputs, and published test vectors.\n"
             "Exit status: 0 done, 1 bad input or violations found, 2 bad usage.",
             ERRBOUND_VERSION};
-        constexpr errbound::support::command_maker commands[] = {
+        const errbound::support::command_maker commands[] = {
             errbound::validate_command, errbound::explain_command, errbound::ranges_command,
             errbound::conformance_command};
         return errbound::support::run_command(text, argc, argv, commands);

@@ -8,12 +8,14 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "errbound/program/commands.hpp"
 #include "errbound/program/flame_graph.hpp"
 #include "errbound/program/named_rules.hpp"
 #include "errbound/program/published/fpcore.hpp"
+#include "errbound/program/published/text.hpp"
 #include "errbound/program/ratio_plot.hpp"
 #include "errbound/support/decimal.hpp"
 #include "errbound/support/hexadecimal.hpp"
@@ -117,23 +119,17 @@ void ranges::add_comparisons_and_outputs() {
 std::map<std::string, double> published_bounds(const std::filesystem::path& path) {
     std::map<std::string, double> bounds;
     const std::string text = support::read_whole(path);
-    std::size_t number = 0;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
-        std::string line = text.substr(begin, end - begin);
-        begin = end + 1;
-        ++number;
-        if (line.ends_with('\r')) line.pop_back();
-        if (line.empty() || line[0] == '#') continue;
+    for_each_line(text, [&](std::size_t number, std::string_view line) {
+        if (line.empty() || line[0] == '#') return;
         const std::size_t comma = line.rfind(',');
         const auto bound = support::parse_decimal<double>(
-            std::string_view(line).substr(comma == std::string::npos ? 0 : comma + 1));
-        if (comma == std::string::npos || bound.status != support::decimal_status::ok ||
+            line.substr(comma == std::string_view::npos ? 0 : comma + 1));
+        if (comma == std::string_view::npos || bound.status != support::decimal_status::ok ||
             !(bound.value >= 0))
             throw support::file_error(path.string() + ':' + std::to_string(number) + ": line is '" +
-                                      line + "'; expected CORE,BOUND");
-        bounds[line.substr(0, comma)] = bound.value;
-    }
+                                      std::string(line) + "'; expected CORE,BOUND");
+        bounds[std::string(line.substr(0, comma))] = bound.value;
+    });
     return bounds;
 }
 
@@ -302,6 +298,5 @@ void ranges::print(std::ostream& people) const {
 }  // namespace
 }  // namespace errbound::validation
 
-std::unique_ptr<errbound::support::command> errbound::ranges_command(CLI::App& program) {
-    return std::make_unique<validation::ranges>(program);
-}
+const errbound::support::command_maker errbound::ranges_command =
+    errbound::support::make_command<validation::ranges>;

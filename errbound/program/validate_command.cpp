@@ -194,6 +194,5 @@ support::exit_status validate::run() {
 }  // namespace
 }  // namespace errbound::validation
 
-std::unique_ptr<errbound::support::command> errbound::validate_command(CLI::App& program) {
-    return std::make_unique<validation::validate>(program);
-}
+const errbound::support::command_maker errbound::validate_command =
+    errbound::support::make_command<validation::validate>;

@@ -80,6 +80,10 @@ struct program_text {
     std::string name, description, version;
 };
 using command_maker = std::unique_ptr<command> (*)(CLI::App& program);
+template <class Command>
+std::unique_ptr<command> make_command(CLI::App& program) {
+    return std::make_unique<Command>(program);
+}
 
 /// Parses the line and runs its command. Throws usage_error if there is none.
 int run_command(const program_text& program, int argc, char** argv,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <errbound/validation/ball.hpp>
 #include <utility>
 
@@ -21,32 +20,34 @@ struct freed_mpfr_cache {
 
 }  // namespace
 
-evidence with_mpfr(evidence what) {
-    return {.chunks = what.chunks,
+evidence with_mpfr(evidence examined) {
+    return {.chunks = examined.chunks,
             .report_of =
-                [work = std::move(what.report_of)](std::uint64_t chunk) {
+                [work = std::move(examined.report_of)](std::uint64_t chunk) {
                     const freed_mpfr_cache cache;
                     const exponents range = exponents::widest();
                     return work(chunk);
                 },
             .describe =
-                [work = std::move(what.describe)](report& found) {
+                [work = std::move(examined.describe)](report& found) {
                     const freed_mpfr_cache cache;
                     const exponents range = exponents::widest();
                     work(found);
                 }};
 }
 
-report examine(const evidence& what, int threads, const progress& show) {
+report examine(const evidence& examined, int threads, const progress& show) {
     static const std::atomic<int> no_stop = 0;
     report all;
-    support::ordered_blocks<report> chunks(
-        0, what.chunks, static_cast<unsigned>(std::max(threads, 0)), what.report_of,
-        [&all](report found) { all.merge(std::move(found)); }, no_stop);
-    while (!chunks.finished_within(std::chrono::milliseconds(100)))
-        if (show) show(chunks.between_merges([](std::uint64_t done) { return done; }), what.chunks);
-    chunks.rethrow_failure();
-    what.describe(all);
+    std::uint64_t done = 0;
+    support::merge_in_order(
+        0, examined.chunks, static_cast<unsigned>(std::max(threads, 0)), examined.report_of,
+        [&](report found) {
+            all.merge(std::move(found));
+            if (show) show(++done, examined.chunks);
+        },
+        no_stop);
+    examined.describe(all);
     return all;
 }
 

@@ -33,6 +33,6 @@ class chunks {
 };
 
 /// Sets up MPFR on the calling thread, and frees its cache afterwards.
-evidence with_mpfr(evidence what);
+evidence with_mpfr(evidence examined);
 
 }  // namespace errbound::validation

@@ -15,35 +15,12 @@ except ImportError as missing:
     sys.exit(f"film.py: {missing}; expected NumPy and Pillow (pip install numpy pillow, or on Debian "
              "python3-matplotlib and /usr/bin/python3)")
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from meshes import bodies_of, read_ply  # noqa: E402
+
 COLOURS = numpy.array([[86, 130, 196], [214, 128, 66], [105, 164, 103], [186, 92, 110],
                        [139, 116, 178], [120, 120, 120]], float)
 BACKGROUND = (250, 250, 248)
-
-
-def read_ply(path):
-    data = path.read_bytes()
-    end = data.index(b"end_header\n") + len(b"end_header\n")
-    head = data[:end].decode()
-    count = {name: int(n) for name, n in re.findall(r"element (\w+) (\d+)", head)}
-    points = numpy.frombuffer(data, float, 3 * count["vertex"], end).reshape(-1, 3)
-    at = end + points.nbytes
-    face = numpy.dtype([("n", "u1"), ("v", "=u4", 3)])
-    faces = numpy.frombuffer(data, face, count.get("face", 0), at)["v"]
-    edges = numpy.frombuffer(data, "=u4", 2 * count.get("edge", 0), at + face.itemsize * len(faces))
-    return points, faces, edges.reshape(-1, 2)
-
-
-def bodies_of(faces, vertices):
-    part = numpy.arange(vertices)
-    while True:
-        least = part[faces].min(axis=1)
-        new = part.copy()
-        for corner in range(3):
-            numpy.minimum.at(new, faces[:, corner], least)
-        new = new[new]
-        if (new == part).all():
-            return numpy.unique(part, return_inverse=True)[1]
-        part = new
 
 
 class camera:

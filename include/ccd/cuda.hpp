@@ -17,6 +17,7 @@
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>
 #include <ccd/verdict.hpp>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -78,6 +79,9 @@ struct positions {
           vertices(count) {}
 };
 
+template <class Pair>
+concept device_pair = std::same_as<Pair, vertex_face_pair> || std::same_as<Pair, edge_edge_pair>;
+
 /// Candidates, the pairs to decide: rows or columns of vertex indices, or pairs of elements.
 /// Precondition: indices are in range, which the device does not check.
 template <class Pair>
@@ -138,9 +142,8 @@ struct batch_options {
 /// After `exact`, `uncertain` marks candidates with coordinates that are not finite, and the few
 /// that integers of one and two words (of 64 bits) do not decide; finish() decides the latter. Do
 /// not change the scratch memory before finish().
-status decide_batch(const positions& positions, const candidates<vertex_face_pair>& candidates,
-                    outcome* answers, scratch memory, const batch_options& options = {});
-status decide_batch(const positions& positions, const candidates<edge_edge_pair>& candidates,
+template <device_pair Pair>
+status decide_batch(const positions& positions, const candidates<Pair>& candidates,
                     outcome* answers, scratch memory, const batch_options& options = {});
 
 /// The number of candidates that entered each stage of `exact`, in one call of decide_batch.
@@ -156,10 +159,9 @@ struct [[nodiscard]] finished : status {
 
 /// Decides the undecided candidates of decide_batch on all threads of the host, and writes their
 /// answers. Waits for the stream. Throws only std::bad_alloc.
-finished finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
-                outcome* answers, scratch memory, const batch_options& options);
-finished finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
-                outcome* answers, scratch memory, const batch_options& options);
+template <device_pair Pair>
+finished finish(const positions& positions, const candidates<Pair>& candidates, outcome* answers,
+                scratch memory, const batch_options& options);
 
 /// Writes the indices of the answers other than `separate`, ascending, to the `room` places of
 /// `found`, and their number to *count; if it exceeds `room`, call again with more room. Only
@@ -181,10 +183,9 @@ struct time_options {
 /// finish_times() finds the times for which integers of two words do not suffice: roots that nearly
 /// coincide or are below 2^-70, or coordinates that differ too much. Do not change the scratch
 /// memory before finish_times().
-status find_times(const positions& positions, const candidates<vertex_face_pair>& candidates,
-                  first_time* times, scratch memory, const time_options& options = {});
-status find_times(const positions& positions, const candidates<edge_edge_pair>& candidates,
-                  first_time* times, scratch memory, const time_options& options = {});
+template <device_pair Pair>
+status find_times(const positions& positions, const candidates<Pair>& candidates, first_time* times,
+                  scratch memory, const time_options& options = {});
 
 /// The number of candidates that entered each stage of find_times. In `roots`, floating point finds
 /// the interval of the contact and integers its root. In `integers`, integers find both.
@@ -199,12 +200,9 @@ struct [[nodiscard]] finished_times : status {
 };
 
 /// Finds the undecided times of find_times, and otherwise works as finish().
-finished_times finish_times(const positions& positions,
-                            const candidates<vertex_face_pair>& candidates, first_time* times,
-                            scratch memory, const time_options& options = {});
-finished_times finish_times(const positions& positions,
-                            const candidates<edge_edge_pair>& candidates, first_time* times,
-                            scratch memory, const time_options& options = {});
+template <device_pair Pair>
+finished_times finish_times(const positions& positions, const candidates<Pair>& candidates,
+                            first_time* times, scratch memory, const time_options& options = {});
 
 namespace detail {
 template <kind K>

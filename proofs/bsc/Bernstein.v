@@ -91,8 +91,8 @@ Proof.
   intros Z. revert a. induction l as [| b l IH]; intros a.
   - simpl. ring.
   - change (form (a :: b :: l) s t) with (a * s ^ S (length l) + t * form (b :: l) s t).
-    rewrite IH. change (power_form (a :: b :: l) (t / s)) with (a + t / s * power_form (b :: l) (t /
-      s)).
+    rewrite IH.
+    change (power_form (a :: b :: l) (t / s)) with (a + t / s * power_form (b :: l) (t / s)).
     simpl. field. easy.
 Qed.
 
@@ -123,8 +123,8 @@ Proof.
   destruct (Req_dec s 0) as [-> | Zs]; [| destruct (Req_dec t 0) as [-> | Zt]].
   - assert (T : 0 < t) by lra. clear Hs Ht P N A. revert a F.
     induction l as [| b l IH]; intros a F; inversion_clear F; [simpl; lra |].
-    specialize (IH b H0). change (form (a :: b :: l) 0 t) with (a * 0 ^ S (length l) + t * form (b :: l)
-      0 t).
+    specialize (IH b H0).
+    change (form (a :: b :: l) 0 t) with (a * 0 ^ S (length l) + t * form (b :: l) 0 t).
     rewrite pow_i by lia. assert (0 < t * form (b :: l) 0 t) by (apply Rmult_lt_0_compat; auto). lra.
   - simpl. assert (0 < a * s ^ length l) by (apply Rmult_lt_0_compat; auto; apply pow_lt; lra). lra.
   - apply hull_inside; auto; lra.
@@ -174,8 +174,8 @@ Proof. unfold scaled_coefficients. simpl. repeat f_equal; ring. Qed.
 Lemma products_below c l k s t : Forall (Rle 0) c -> length c = length l -> Forall (Rle k) l ->
   0 <= s -> 0 <= t -> k * form c s t <= form (products c l) s t /\ length (products c l) = length l.
 Proof.
-  intros Fc L G Hs Ht. revert l L G. induction Fc as [| x c X Fc IH]; intros [| y l] L G; try
-    discriminate.
+  intros Fc L G Hs Ht. revert l L G.
+  induction Fc as [| x c X Fc IH]; intros [| y l] L G; try discriminate.
   - simpl. split; [lra | easy].
   - injection L as L. inversion_clear G as [| ? ? K G']. destruct (IH l L G') as (I & E). simpl.
     rewrite E, L. split; [| easy].
@@ -316,8 +316,8 @@ Proof.
   assert (H : forall l b, form (exacts (elevated_after b l)) s t =
     exact b * s ^ length l + (s + t) * form (exacts l) s t).
   { induction l as [| a l IH]; intros b; [simpl; ring |]. simpl. rewrite IH. exacts.
-    rewrite !map_length. replace (length (elevated_after a l)) with (Datatypes.S (length l)); [simpl;
-      ring |].
+    rewrite !map_length.
+    replace (length (elevated_after a l)) with (Datatypes.S (length l)); [simpl; ring |].
     clear. revert a. induction l as [| c l IH]; intros a; simpl; auto. }
   destruct p as [| a l]; simpl; [ring |]. rewrite H, !map_length.
   replace (length (elevated_after a l)) with (Datatypes.S (length l)); [simpl; ring |].
@@ -545,8 +545,8 @@ Proof.
       match goal with |- context [sign_inside_from ?x l] => specialize (IH x); destruct
         (sign_inside_from x l) end;
       intuition (try discriminate; try (constructor; auto; lra); auto).
-    all: try (right; split; [easy | constructor 1; lra]). all: try (right; split; [easy | now
-      constructor 2]). }
+    all: try (right; split; [easy | constructor 1; lra]).
+    all: try (right; split; [easy | now constructor 2]). }
   specialize (H p zero). unfold sign_inside. destruct (sign_inside_from zero p); simpl in *;
     intuition (try discriminate; auto).
 Qed.

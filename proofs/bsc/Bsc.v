@@ -50,13 +50,13 @@ Proof.
   intros H. unfold verdict. split.
   - destruct (existsb _ _) eqn:E; [intros _ | destruct (negb c), (forallb (same_sign positive) (map f
       gs)); easy].
-    apply existsb_exists in E. destruct E as (s & I & N). apply in_map_iff in I. destruct I as (g & <- &
-      I).
+    apply existsb_exists in E. destruct E as (s & I & N). apply in_map_iff in I.
+    destruct I as (g & <- & I).
     apply Exists_exists. exists g. split; auto. rewrite Forall_forall in H. specialize (H g I).
     destruct (f g); easy.
   - destruct (existsb (same_sign negative) (map f gs)); [easy |]. destruct (negb c); [easy |].
-    destruct (forallb (same_sign positive) (map f gs)) eqn:E; [intros _ | easy]. rewrite forallb_forall
-      in E.
+    destruct (forallb (same_sign positive) (map f gs)) eqn:E; [intros _ | easy].
+    rewrite forallb_forall in E.
     apply Forall_forall. intros g I. rewrite Forall_forall in H. specialize (H g I).
     specialize (E (f g) (in_map _ _ _ I)). destruct (f g); easy.
 Qed.
@@ -80,8 +80,8 @@ Lemma at_end_right y gs k t : five gs -> (k = 0%nat /\ t = 0 \/ k = 4%nat /\ t =
 Proof.
   intros F K x E. unfold at_end. pose proof (sign_right S x) as X.
   assert (R : right_at (verdict (same_sign (sign_of x) zero) (map (fun f => sign_of (f#k)) gs)) gs t).
-  { apply verdict_right. apply Forall_forall. intros g I. rewrite Forall_forall in F. specialize (F g
-      I).
+  { apply verdict_right. apply Forall_forall. intros g I. rewrite Forall_forall in F.
+    specialize (F g I).
     apply right_not_wrong. replace (form_at g t) with (exact (g#k)); [apply sign_right |].
     destruct K as [(-> & ->) | (-> & ->)]; symmetry; [apply at_start; now destruct g | now apply
       at_finish]. }
@@ -148,18 +148,18 @@ Proof.
       (sign_of (y#3))) gs r L F (or_introl eq_refl) (Cross r I Z))). exact E. }
   assert (Yes : both = true -> crossed = yes ->
     exists t, 0 <= t <= 1 /\ form_at y t = 0 /\ all_positive gs t).
-  { intros P E. unfold both in P. apply andb_prop in P. pose proof (verdict_yes _ _ E) as C. apply
-      andb_prop in C.
-    pose proof (proj1 (certainly (y#0) (proj1 C)) (proj1 P)). pose proof (proj2 (certainly (y#3) (proj2
-      C)) (proj2 P)).
+  { intros P E. unfold both in P. apply andb_prop in P. pose proof (verdict_yes _ _ E) as C.
+    apply andb_prop in C.
+    pose proof (proj1 (certainly (y#0) (proj1 C)) (proj1 P)).
+    pose proof (proj2 (certainly (y#3) (proj2 C)) (proj2 P)).
     destruct (strict_root y) as (r & Ir & Z); [rewrite S0, S3; nra |]. exists r. split; [lra |]. split; auto.
     apply (proj2 (at_crossing_right y negative (certain (sign_of (y#0)) && certain (sign_of (y#3))) gs r
       L F (or_introl eq_refl) (Cross r Ir Z))). exact E. }
   assert (Inner : forall t, 0 <= t <= 1 -> form_at y t = 0 -> t <> 0 -> t <> 1 ->
     both = true).
   { intros t T Z T0 T1. pose proof (M 0 t). pose proof (M t 1).
-    unfold both. destruct (possible (y#0)) as (P & _). destruct (possible (y#3)) as (_ & Q & _). rewrite
-      P, Q; auto; lra. }
+    unfold both. destruct (possible (y#0)) as (P & _). destruct (possible (y#3)) as (_ & Q & _).
+    rewrite P, Q; auto; lra. }
   split.
   - intros E t T Z. destruct (Req_dec t 0) as [-> | T0]; [| destruct (Req_dec t 1) as [-> | T1]].
     + apply No0; auto. destruct both; repeat (apply either_no in E; destruct E as (E & ?)); auto.
@@ -203,8 +203,8 @@ Proof.
     assert (N1 : 0 < form_at d 1) by (specialize (T 1 t ltac:(lra) ltac:(lra) ltac:(lra)); nra).
     destruct (Extremum N0 N1) as (x & X & Zx). specialize (Lowest x X Zx).
     assert (Low : form_at y x <= 0).
-    { destruct (Req_dec x t) as [-> | H]; [lra |]. specialize (T x t ltac:(lra) ltac:(lra) H). rewrite
-        Zx in T. lra. }
+    { destruct (Req_dec x t) as [-> | H]; [lra |]. specialize (T x t ltac:(lra) ltac:(lra) H).
+      rewrite Zx in T. lra. }
     rewrite D0 in N0. rewrite D2 in N1.
     destruct (certainly_nonnegative _ || certainly_nonpositive _) eqn:Q.
     { exfalso. destruct S0 as (_ & A & B). destruct S2 as (A2 & B2 & _).
@@ -230,8 +230,8 @@ Proof.
     assert (N0 : form_at d 0 < 0).
     { rewrite D0. destruct S0 as (A & _). destruct (sign_of (d#0)); try discriminate; auto. }
     assert (N1 : 0 < form_at d 1).
-    { rewrite D2. destruct S2 as (_ & _ & A). destruct (sign_of (d#0)), (sign_of (d#2)); try
-        discriminate; auto. }
+    { rewrite D2. destruct S2 as (_ & _ & A).
+      destruct (sign_of (d#0)), (sign_of (d#2)); try discriminate; auto. }
     destruct (Extremum N0 N1) as (x & X & Zx). specialize (Lowest x X Zx).
     assert (Low : form_at y x <= 0) by (destruct lowest; try discriminate; simpl in Lowest; lra).
     assert (Side : forall u v, 0 <= u <= 1 -> 0 <= v <= 1 -> u <= v -> form_at d u <= form_at d v).
@@ -400,8 +400,8 @@ Proof.
         answer).
     { intros Q P H. apply andb_prop in P. pose proof (verdict_yes _ _ H) as K. apply andb_prop in K.
       destruct K as (Ce & C1). destruct (Ec Ce) as (C0 & C3).
-      pose proof (proj1 (certainly _ C1) (proj1 P)) as N1. pose proof (proj2 (certainly _ C3) (proj2 P))
-        as N3.
+      pose proof (proj1 (certainly _ C1) (proj1 P)) as N1.
+      pose proof (proj2 (certainly _ C3) (proj2 P)) as N3.
       assert (Y0 : form_at y 0 = 0)
         by (rewrite S0; pose proof (signs_of (y#0)) as (_ & A & _); destruct (sign_of (y#0)); easy ||
           auto).
@@ -512,12 +512,12 @@ Proof.
       curvature).
     assert (Ls : length (ddy y) = 2%nat) by now four y L.
     assert (Kc : signs_inside c (exacts (ddy y))).
-    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto. now apply
-        inside_signs. }
+    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto.
+      now apply inside_signs. }
     assert (Ld : length (dy y) = 3%nat) by now four y L.
     assert (P : c = zero \/ c = uncertain -> sound (parts (ddy y)) y gs).
-    { intros C. apply Parts. unfold c in C. destruct curvature, (opposite (ddy y)); simpl in C; auto;
-        intuition discriminate. }
+    { intros C. apply Parts. unfold c in C.
+      destruct curvature, (opposite (ddy y)); simpl in C; auto; intuition discriminate. }
     destruct c eqn:Ec; auto.
     + apply sound_opp, on_convex_sound; auto; try (now rewrite map_length); [now rewrite exacts_opp, Eo
         |].
@@ -545,9 +545,8 @@ Qed.
 Lemma form_of_part (p : list S) k x : p <> [] -> 0 < k ->
   form (exacts p) (k * (1 - x)) (k * x) = k ^ (length p - 1) * form_at p x.
 Proof.
-  intros N K. destruct p as [| a l]; [easy |]. unfold at_time. cbn [map]. rewrite form_homogeneous,
-    map_length.
-  simpl. now rewrite Nat.sub_0_r.
+  intros N K. destruct p as [| a l]; [easy |]. unfold at_time. cbn [map].
+  rewrite form_homogeneous, map_length. simpl. now rewrite Nat.sub_0_r.
 Qed.
 
 Lemma length_part (p : list S) v w : (length p = 4%nat \/ length p = 5%nat) ->
@@ -608,30 +607,30 @@ Proof.
     destruct (Rle_or_lt t m) as [H | H].
     + assert (X : t = 0 + (m - 0) * (t / m)) by (field; lra).
       assert (Ex : excluded (map f0 gs) (t / m)).
-      { apply No0; auto; [| rewrite E0, <- X, Z; ring]. split; [apply Rmult_le_pos; [lra | left; apply
-          Rinv_0_lt_compat; lra] |].
+      { apply No0; auto; [| rewrite E0, <- X, Z; ring].
+        split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
         apply Rmult_le_reg_r with m; [lra |]. replace (t / m * m) with t by (field; lra). lra. }
-      unfold excluded in *. apply Exists_exists in Ex. destruct Ex as (f & I & N). apply in_map_iff in
-        I.
+      unfold excluded in *. apply Exists_exists in Ex. destruct Ex as (f & I & N).
+      apply in_map_iff in I.
       destruct I as (g & <- & I). apply Exists_exists. exists g. split; auto. rewrite X. now apply Sign.
     + assert (X : t = m + (1 - m) * ((t - m) / (1 - m))) by (field; lra).
       assert (Ex : excluded (map f1 gs) ((t - m) / (1 - m))).
-      { apply No1; auto; [| rewrite E1, <- X, Z; ring]. split; [apply Rmult_le_pos; [lra | left; apply
-          Rinv_0_lt_compat; lra] |].
-        apply Rmult_le_reg_r with (1 - m); [lra |]. replace ((t - m) / (1 - m) * (1 - m)) with (t - m)
-          by (field; lra). lra. }
-      unfold excluded in *. apply Exists_exists in Ex. destruct Ex as (f & I & N). apply in_map_iff in
-        I.
+      { apply No1; auto; [| rewrite E1, <- X, Z; ring].
+        split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
+        apply Rmult_le_reg_r with (1 - m); [lra |].
+        replace ((t - m) / (1 - m) * (1 - m)) with (t - m) by (field; lra). lra. }
+      unfold excluded in *. apply Exists_exists in Ex. destruct Ex as (f & I & N).
+      apply in_map_iff in I.
       destruct I as (g & <- & I). apply Exists_exists. exists g. split; auto. rewrite X. now apply Sign.
   - intros E. destruct (Yes E) as [Y | Y].
     + destruct (Yes0 Y) as (t & T & Z & P). exists (0 + (m - 0) * t). split; [nra |]. split.
       * rewrite E0 in Z. apply Rmult_integral in Z. destruct Z; lra.
-      * unfold all_positive in *. rewrite Forall_map in P. rewrite Forall_forall in *. intros g I. apply
-          Sign; auto.
+      * unfold all_positive in *. rewrite Forall_map in P. rewrite Forall_forall in *. intros g I.
+        apply Sign; auto.
     + destruct (Yes1 Y) as (t & T & Z & P). exists (m + (1 - m) * t). split; [nra |]. split.
       * rewrite E1 in Z. apply Rmult_integral in Z. destruct Z; lra.
-      * unfold all_positive in *. rewrite Forall_map in P. rewrite Forall_forall in *. intros g I. apply
-          Sign; auto.
+      * unfold all_positive in *. rewrite Forall_map in P. rewrite Forall_forall in *. intros g I.
+        apply Sign; auto.
 Qed.
 
 (** The second derivative on a subinterval. *)
@@ -710,16 +709,14 @@ Proof.
           f)) m); auto.
       + apply on_curved_sound; auto.
         * rewrite (second_of_cubic _ L0), !S0.
-          replace (0 + (m - 0) * 0) with 0 by ring. replace (0 + (m - 0) * 1) with m by ring. rewrite
-            Zm, At0.
-          rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c0).
+          replace (0 + (m - 0) * 0) with 0 by ring. replace (0 + (m - 0) * 1) with m by ring.
+          rewrite Zm, At0. rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c0).
           apply (strict_beside_0 _ _ _ (proj1 (opposite_signs _ O)) (sign_right S (ddy y # 0)) K0).
         * destruct (proj1 (opposite_signs _ O)) as [-> | ->]; discriminate.
       + apply on_curved_sound; auto.
         * rewrite (second_of_cubic _ L1), !S1.
-          replace (m + (1 - m) * 0) with m by ring. replace (m + (1 - m) * 1) with 1 by ring. rewrite
-            Zm, At1.
-          rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c1).
+          replace (m + (1 - m) * 0) with m by ring. replace (m + (1 - m) * 1) with 1 by ring.
+          rewrite Zm, At1. rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c1).
           apply (strict_beside_0 _ _ _ (proj2 (opposite_signs _ O)) (sign_right S (ddy y # 1)) K1).
         * destruct (proj2 (opposite_signs _ O)) as [-> | ->]; discriminate.
       + apply either_no.
@@ -753,9 +750,8 @@ Proof.
   { intros p t. destruct (normalized_at p) as (c & C & E). rewrite E. repeat split; intros; nra. }
   intros (No & Yes). split.
   - intros E t T Z. specialize (No E t T (proj2 (proj1 (N y t)) Z)). unfold excluded in *.
-    apply Exists_exists in No. destruct No as (f & I & P). apply in_map_iff in I. destruct I as (g & <-
-      & I).
-    apply Exists_exists. exists g. split; auto. now apply N.
+    apply Exists_exists in No. destruct No as (f & I & P). apply in_map_iff in I.
+    destruct I as (g & <- & I). apply Exists_exists. exists g. split; auto. now apply N.
   - intros E. destruct (Yes E) as (t & T & Z & P). exists t. split; auto. split; [now apply N |].
     unfold all_positive in *. rewrite Forall_map in P. eapply Forall_impl; [| exact P]. simpl. intros g.
       apply N.
@@ -768,8 +764,8 @@ Proof.
   destruct (certainly_rootless (normalized y)) eqn:R.
   - split; [| easy]. intros _ t T Z. now apply rootless_hull with (t := t) in R.
   - apply on_part_sound; [now rewrite length_normalized |].
-    rewrite Forall_map. eapply Forall_impl; [| exact F]. simpl. intros g Lg. now rewrite
-      length_normalized.
+    rewrite Forall_map. eapply Forall_impl; [| exact F]. simpl. intros g Lg.
+    now rewrite length_normalized.
 Qed.
 
 (** A "no" is never wrong. *)

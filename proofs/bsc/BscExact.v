@@ -46,8 +46,8 @@ Qed.
 Lemma at_extremum_certain d form : linear_at_extremum d form <> uncertain.
 Proof.
   unfold linear_at_extremum. destruct (negb _); [apply inside_certain |].
-  pose proof (at_root_certain (normalized form) d). destruct (sign_at_root_of _ d); try easy; apply
-    Exact.
+  pose proof (at_root_certain (normalized form) d).
+  destruct (sign_at_root_of _ d); try easy; apply Exact.
 Qed.
 Lemma extremum_certain y d : certain (sign_at_extremum y d) = true.
 Proof.
@@ -68,9 +68,8 @@ Proof.
   pose proof (at_root_certain l y). pose proof (at_root_certain l d).
   pose proof (Exact (l#0)). pose proof (Exact (l#1)).
   destruct (sign_at_root_of l y), (sign_at_root_of l d); simpl; try easy; exfalso; simpl in *.
-  assert (N : x <> r) by (intros ->; lra). specialize (T x r ltac:(lra) ltac:(lra) N). rewrite Sd, Z in
-    T.
-  lra.
+  assert (N : x <> r) by (intros ->; lra). specialize (T x r ltac:(lra) ltac:(lra) N).
+  rewrite Sd, Z in T. lra.
 Qed.
 
 Lemma zero_form l : length l = 2%nat -> opposite l = false -> inside l = zero ->
@@ -105,8 +104,8 @@ Proof.
   assert (exact (y#3) <> 0) by (intros H0; apply N; rewrite H0; ring).
   symmetry in F0, F1. apply Rmult_integral in F0, F1. destruct F0 as [| F0], F1 as [| F1]; try easy.
   unfold sign_inside in J. cbn [sign_inside_from] in J.
-  pose proof (sign_tells a) as (Ca & Ra). pose proof (sign_tells b) as (Cb & _). pose proof (sign_tells
-    c) as (Cc & Rc).
+  pose proof (sign_tells a) as (Ca & Ra). pose proof (sign_tells b) as (Cb & _).
+  pose proof (sign_tells c) as (Cc & Rc).
   destruct (sign_of a), (sign_of c), (sign_of b); simpl in *; try easy; lra.
 Qed.
 
@@ -153,8 +152,8 @@ Proof.
   - split; intros _; refine (proj2 (reduced_tells y g r _ Ly Lg Z I _) K); now apply hull_tells.
   - destruct (sign_determination_2 y d _ r Lm Ny Nd C I Z) as (M0 & M1).
     destruct (sign_determination_2 y d _ r Lr Ny Nd C I Z) as (R0 & R1).
-    destruct (at_pair_certain y d _ r Lm Ny Nd C I Z). destruct (at_pair_certain y d _ r Lr Ny Nd C I
-      Z).
+    destruct (at_pair_certain y d _ r Lm Ny Nd C I Z).
+    destruct (at_pair_certain y d _ r Lr Ny Nd C I Z).
     split; intros D; refine (proj2 (reduced_tells y g r _ Ly Lg Z I _) K); apply combined_tells; auto
       using length_reduced; try lra;
       split; auto.
@@ -199,8 +198,8 @@ Proof.
   - intros t [T | T]; auto.
   - destruct B as ((t & T & B) & N). split; [exists t; auto |]. intros u [U | U]; auto.
   - destruct A as ((t & T & A) & N). split; [exists t; auto |]. intros u [U | U]; auto.
-  - destruct A as ((t & T & A) & N). split; [exists t; auto |]. destruct B as (_ & B). intros u [U | U];
-    auto.
+  - destruct A as ((t & T & A) & N). split; [exists t; auto |]. destruct B as (_ & B).
+    intros u [U | U]; auto.
 Qed.
 
 Lemma verdict_answers gs t (f : list S -> sign) : Forall (fun g => tells (f g) (form_at g t)) gs ->
@@ -266,8 +265,8 @@ Qed.
 Lemma without_inner y gs e : answers e (fun t => (t = 0 \/ t = 1) /\ form_at y t = 0) gs ->
   (forall t, ~ inner y t) -> answers e (roots y) gs.
 Proof.
-  intros E N. replace e with (either e no) by now destruct e. apply with_inner; auto. now apply
-    answers_no.
+  intros E N. replace e with (either e no) by now destruct e. apply with_inner; auto.
+  now apply answers_no.
 Qed.
 
 Lemma at_crossing_answers y before gs r : length y = 4%nat -> five gs ->
@@ -294,8 +293,8 @@ Lemma on_increasing_answers y gs : length y = 4%nat -> five gs ->
 Proof.
   intros L F M. destruct (at_ends y L) as (E0 & E3). pose proof (ends_answer y gs L F) as Ends.
   unfold on_increasing. rewrite !always_certain. cbn [andb].
-  destruct (sign_tells (y#0)) as (C0 & S0). destruct (sign_tells (y#3)) as (C3 & S3). rewrite <- E0 in
-    S0. rewrite <- E3 in S3.
+  destruct (sign_tells (y#0)) as (C0 & S0). destruct (sign_tells (y#3)) as (C3 & S3).
+  rewrite <- E0 in S0. rewrite <- E3 in S3.
   assert (None : 0 <= form_at y 0 \/ form_at y 1 <= 0 -> forall t, ~ inner y t).
   { intros N t (T & Z). pose proof (M 0 t). pose proof (M t 1). lra. }
   destruct (possibly_negative (sign_of (y#0)) && possibly_positive (sign_of (y#3))) eqn:B.
@@ -321,12 +320,12 @@ Proof.
   assert (Nd : d <> []) by now destruct d.
   pose proof (at_start d Nd) as D0. pose proof (at_finish d 2 Ld) as D2.
   unfold at_pair. rewrite !always_certain, extremum_certain. cbn [andb].
-  destruct (sign_tells (d#0)) as (C0 & S0). destruct (sign_tells (d#2)) as (C2 & S2). rewrite <- D0 in
-    S0. rewrite <- D2 in S2.
+  destruct (sign_tells (d#0)) as (C0 & S0). destruct (sign_tells (d#2)) as (C2 & S2).
+  rewrite <- D0 in S0. rewrite <- D2 in S2.
   destruct (certainly_nonnegative (sign_of (d#0)) || certainly_nonpositive (sign_of (d#2))) eqn:Q.
   { apply answers_no. intros t (I & Z).
-    pose proof (T 0 t ltac:(lra) ltac:(lra) ltac:(lra)). pose proof (T 1 t ltac:(lra) ltac:(lra)
-      ltac:(lra)).
+    pose proof (T 0 t ltac:(lra) ltac:(lra) ltac:(lra)).
+    pose proof (T 1 t ltac:(lra) ltac:(lra) ltac:(lra)).
     assert (form_at d 0 < 0) by nra. assert (0 < form_at d 1) by nra.
     destruct (sign_of (d#0)), (sign_of (d#2)); simpl in *; easy || lra. }
   assert (N0 : form_at d 0 < 0) by (destruct (sign_of (d#0)); easy).
@@ -334,21 +333,20 @@ Proof.
   clear C0 S0 C2 S2 Q D0 D2. destruct (strict_root d) as (x & X & Zx); [nra |].
   pose proof (root_finding y d x L Ld Ed X Zx M) as Low. pose proof (extremum_certain y d) as Cl.
   assert (Above : forall t, 0 <= t <= 1 -> form_at y x <= form_at y t).
-  { intros t I. destruct (Req_dec x t) as [-> | N]; [lra |]. specialize (T x t ltac:(lra) I N). rewrite
-    Zx in T. lra. }
+  { intros t I. destruct (Req_dec x t) as [-> | N]; [lra |]. specialize (T x t ltac:(lra) I N).
+    rewrite Zx in T. lra. }
   destruct (same_sign (sign_at_extremum y d) positive) eqn:P.
   { apply answers_no. intros t (I & Z). specialize (Above t ltac:(lra)).
     destruct (sign_at_extremum y d); try easy. simpl in Low. lra. }
   assert (Yx : form_at y x <= 0) by (destruct (sign_at_extremum y d); simpl in *; easy || lra).
   assert (Side : forall u v, 0 <= u <= 1 -> 0 <= v <= 1 -> u <= v -> form_at d u <= form_at d v).
   { intros u v U V [W | ->]; [left; now apply M | lra]. }
-  destruct (between y 0 x) as (a & A & Za); [lra | nra |]. destruct (between y x 1) as (b & B & Zb);
-    [lra | nra |].
+  destruct (between y 0 x) as (a & A & Za); [lra | nra |].
+  destruct (between y x 1) as (b & B & Zb); [lra | nra |].
   assert (a <> 0) by (intros ->; lra). assert (b <> 1) by (intros ->; lra).
   assert (K : 0 < exact (y#0) * exact (y#3)) by nra.
-  pose proof (Side a x ltac:(lra) ltac:(lra) ltac:(lra)) as Da. pose proof (Side x b ltac:(lra)
-    ltac:(lra) ltac:(lra)) as Db.
-  rewrite Zx in Da, Db.
+  pose proof (Side a x ltac:(lra) ltac:(lra) ltac:(lra)) as Da.
+  pose proof (Side x b ltac:(lra) ltac:(lra) ltac:(lra)) as Db. rewrite Zx in Da, Db.
   assert (Left : forall u v, 0 <= u < v -> v <= x -> form_at y u = 0 -> form_at y v <> 0).
   { intros u v U V Zu Zv. specialize (T v u ltac:(lra) ltac:(lra) ltac:(lra)).
     pose proof (Side v x ltac:(lra) ltac:(lra) V). nra. }
@@ -356,8 +354,8 @@ Proof.
   { intros u v U V Zu Zv. specialize (T u v ltac:(lra) ltac:(lra) ltac:(lra)).
     pose proof (Side x u ltac:(lra) ltac:(lra) ltac:(lra)). nra. }
   apply (answers_either _ _ (eq a) (eq b)).
-  - intros t. split; [| intros [<- | <-]; split; auto; lra]. intros (I & Z). destruct (Rle_or_lt t x) as
-    [W | W].
+  - intros t. split; [| intros [<- | <-]; split; auto; lra]. intros (I & Z).
+    destruct (Rle_or_lt t x) as [W | W].
     + left. destruct (Rtotal_order a t) as [G | [G | G]]; auto; exfalso; [now apply (Left a t) | apply
       (Left t a); lra].
     + right. destruct (Rtotal_order b t) as [G | [G | G]]; auto; exfalso; [apply (Right b t); lra |
@@ -391,9 +389,8 @@ Proof.
     apply at_crossing_answers; auto. rewrite <- E0, <- E3. nra. }
   assert (Start : form_at y 0 = 0 -> exact (y#1) < 0 -> 0 < form_at y 1 ->
     answers (at_crossing (elevated [y#1; y#2; y#3]) negative true gs) (inner y) gs).
-  { intros Y0 Y1 Y3. set (e := elevated [y#1; y#2; y#3]). destruct (at_ends e eq_refl) as (A & B). simpl
-    in A, B.
-    destruct (strict_root e) as (r & I & Z); [rewrite A, B; nra |].
+  { intros Y0 Y1 Y3. set (e := elevated [y#1; y#2; y#3]). destruct (at_ends e eq_refl) as (A & B).
+    simpl in A, B. destruct (strict_root e) as (r & I & Z); [rewrite A, B; nra |].
     assert (Zy : form_at y r = 0) by (rewrite <- (without_start y r L Y0); fold e; rewrite Z; ring).
     destruct (rising_crossing _ _ r C I Zy ltac:(lra)) as (K & _).
     destruct (crossing_without_start y _ r L C D0 Y0 K) as (_ & Ke).
@@ -401,9 +398,8 @@ Proof.
     apply at_crossing_answers; auto. simpl. rewrite <- E3. nra. }
   assert (Finish : 0 < form_at y 0 -> form_at y 1 = 0 -> exact (y#2) < 0 ->
     answers (at_crossing (elevated [y#0; y#1; y#2]) positive true gs) (inner y) gs).
-  { intros Y0 Y3 Y2. set (e := elevated [y#0; y#1; y#2]). destruct (at_ends e eq_refl) as (A & B). simpl
-    in A, B.
-    destruct (strict_root e) as (r & I & Z); [rewrite A, B; nra |].
+  { intros Y0 Y3 Y2. set (e := elevated [y#0; y#1; y#2]). destruct (at_ends e eq_refl) as (A & B).
+    simpl in A, B. destruct (strict_root e) as (r & I & Z); [rewrite A, B; nra |].
     assert (Zy : form_at y r = 0) by (rewrite <- (without_finish y r L Y3); fold e; rewrite Z; ring).
     destruct (falling_crossing _ _ r C I Zy ltac:(lra)) as (K & _).
     destruct (crossing_without_finish y _ r L C D1 Y3 K) as (_ & Ke).
@@ -421,10 +417,10 @@ Proof.
   assert (C2 : certain (negate (sign_of (y#2))) = true) by (pose proof (Exact (y#2)); now destruct
     (sign_of (y#2))).
   unfold on_convex. rewrite !always_certain, C2. cbn [andb]. clear C2 Ed F C D0 D1 Ld.
-  revert Ends. generalize (either (at_end (sign_of (y#0)) gs 0) (at_end (sign_of (y#3)) gs 4)). intros
-    found Ends.
-  destruct (sign_tells (y#0)) as (C0 & S0). destruct (sign_tells (y#3)) as (C3 & S3). rewrite <- E0 in
-    S0. rewrite <- E3 in S3.
+  revert Ends. generalize (either (at_end (sign_of (y#0)) gs 0) (at_end (sign_of (y#3)) gs 4)).
+  intros found Ends.
+  destruct (sign_tells (y#0)) as (C0 & S0). destruct (sign_tells (y#3)) as (C3 & S3).
+  rewrite <- E0 in S0. rewrite <- E3 in S3.
   destruct (sign_tells (y#1)) as (C1 & S1). destruct (sign_tells (y#2)) as (C2 & S2).
   rewrite <- E0, <- E3 in Pair.
   destruct (sign_of (y#0)), (sign_of (y#3)); try easy; cbn [same_sign possibly_negative
@@ -456,9 +452,8 @@ Qed.
 (** Without inflection and curvature, Y is linear. *)
 Lemma linear_slope d : length d = 3%nat -> Forall (eq 0) (exacts (dy d)) -> sign_inside d <> uncertain.
 Proof.
-  intros L F. destruct (length_3 d L) as (a & b & c & ->). revert F. unfold derivative. cbn [map
-    derivative_from].
-  repeat (progress exacts || rewrite exact_times). simpl. intros F.
+  intros L F. destruct (length_3 d L) as (a & b & c & ->). revert F. unfold derivative.
+  cbn [map derivative_from]. repeat (progress exacts || rewrite exact_times). simpl. intros F.
   inversion_clear F as [| ? ? F0 F']. inversion_clear F' as [| ? ? F1 _].
   unfold sign_inside. cbn [sign_inside_from].
   destruct (sign_tells a) as (Ca & A), (sign_tells b) as (Cb & B), (sign_tells c) as (Cc & C).
@@ -484,8 +479,8 @@ Proof.
   - assert (Y : forall t, form_at y t = exact (y#0)).
     { intros t. rewrite <- at_start by now destruct y. pose proof (simpson y 0 t L) as Q.
       assert (Zero : forall x, form_at (dy y) x = 0).
-      { intros x. unfold at_time. clear -Slope. simpl in Slope. induction Slope as [| a h <- _ IH];
-        simpl; [easy |]. rewrite IH. ring. }
+      { intros x. unfold at_time. clear -Slope. simpl in Slope.
+        induction Slope as [| a h <- _ IH]; simpl; [easy |]. rewrite IH. ring. }
       rewrite !Zero in Q. lra. }
     destruct (sign_tells (y#0)) as (C & R). unfold answered.
     destruct (sign_of (y#0)); try easy; simpl in *; [right | left; split; auto; intros t; now rewrite Y
@@ -498,8 +493,8 @@ Proof.
     assert (Ld : length (dy y) = 3%nat) by now four y L.
     pose proof (inside_certain (ddy y)) as Ci.
     assert (Kc : signs_inside c (exacts (ddy y))).
-    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto. now apply
-      inside_signs. }
+    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto.
+      now apply inside_signs. }
     assert (Nc : c <> zero).
     { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto. intros E.
       now apply (linear_slope (dy y) Ld) in Es; [| apply zero_form]. }
@@ -562,12 +557,12 @@ Proof.
     }
   assert (From : forall t, a <= t <= b /\ form_at y t = 0 -> exists u, roots q u /\ t = a + (b - a) *
     u).
-  { intros t (T & Z). exists ((t - a) / (b - a)). assert (X : t = a + (b - a) * ((t - a) / (b - a))) by
-    (field; lra).
+  { intros t (T & Z). exists ((t - a) / (b - a)).
+    assert (X : t = a + (b - a) * ((t - a) / (b - a))) by (field; lra).
     split; auto. split; [| rewrite E, <- X, Z; ring].
     split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
-    apply Rmult_le_reg_r with (b - a); [lra |]. replace ((t - a) / (b - a) * (b - a)) with (t - a) by
-      (field; lra). lra. }
+    apply Rmult_le_reg_r with (b - a); [lra |].
+    replace ((t - a) / (b - a) * (b - a)) with (t - a) by (field; lra). lra. }
   destruct e; simpl; auto.
   - intros A t T. destruct (From t T) as (u & U & ->). now apply Same, A.
   - intros (u & U & A). exists (a + (b - a) * u). split; auto. now apply Same.
@@ -597,8 +592,8 @@ Proof.
   assert (G1 : Forall (fun g => is_part g (snd (parts_of g)) m 1) gs)
     by (eapply Forall_impl; [| exact F]; intros g Lg; apply P; now right).
   assert (Five : forall f a b, Forall (fun g => is_part g (f g) a b) gs -> five (map f gs)).
-  { intros f a b G. apply Forall_map. rewrite Forall_forall in *. intros g I. destruct (G g I) as (-> &
-    _). auto. }
+  { intros f a b G. apply Forall_map. rewrite Forall_forall in *. intros g I.
+    destruct (G g I) as (-> & _). auto. }
   assert (L0 := proj1 P0). assert (L1 := proj1 P1). rewrite L in L0, L1.
   destruct (second_of_part y _ 0 m L P0) as (c0 & C0 & S0).
   destruct (second_of_part y _ m 1 L P1) as (c1 & C1 & S1).
@@ -647,19 +642,18 @@ Proof.
   - right. apply Back, answers_no. intros t (T & Z). now apply rootless_hull with (t := t) in N.
   - destruct (on_part_answered (normalized y) (map normalized gs) max_halvings) as [(E & Z) | A].
     + now rewrite length_normalized.
-    + apply Forall_map. eapply Forall_impl; [| exact F]. simpl. intros g Lg. now rewrite
-      length_normalized.
-    + left. split; auto. intros t. destruct (normalized_at y) as (c & C & En). specialize (Z t). rewrite
-      En in Z.
-      apply Rmult_integral in Z. destruct Z; auto. lra.
+    + apply Forall_map. eapply Forall_impl; [| exact F]. simpl. intros g Lg.
+      now rewrite length_normalized.
+    + left. split; auto. intros t. destruct (normalized_at y) as (c & C & En). specialize (Z t).
+      rewrite En in Z. apply Rmult_integral in Z. destruct Z; auto. lra.
     + right. auto.
 Qed.
 
 Theorem bsc_exact_root y gs t : length y = 4%nat -> five gs ->
   root_with_nonnegative y gs = maybe_root -> form_at y t = 0.
 Proof.
-  intros L F E. destruct (root_with_nonnegative_answered y gs L F) as [(_ & Z) | A]; auto. now rewrite E
-    in A.
+  intros L F E. destruct (root_with_nonnegative_answered y gs L F) as [(_ & Z) | A]; auto.
+  now rewrite E in A.
 Qed.
 
 Theorem bsc_exact_inside y gs : length y = 4%nat -> five gs ->
@@ -690,8 +684,8 @@ Lemma all_at_start gs : five gs ->
 Proof.
   intros F. rewrite forallb_forall. unfold all_positive. rewrite Forall_forall in *.
   assert (A : forall g, In g gs -> same_sign (sign_of (g#0)) positive = true <-> 0 < form_at g 0).
-  { intros g I. rewrite at_start by (specialize (F g I); now destruct g). destruct (sign_tells (g#0)) as
-    (C & R).
+  { intros g I. rewrite at_start by (specialize (F g I); now destruct g).
+    destruct (sign_tells (g#0)) as (C & R).
     destruct (sign_of (g#0)); simpl in *; split; easy || lra. }
   split; intros H g I; now apply A, H.
 Qed.

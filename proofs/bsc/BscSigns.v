@@ -77,21 +77,11 @@ Proof.
   split; intros a b A B AB.
   - rewrite (taylor y a b L), !V.
     assert (0 < (b - a) * (b - a)) by nra.
-    assert (0 < 2 * (l0 * (1 - a) + l1 * a) + (l0 * (1 - b) + l1 * b)).
-    { destruct N as (N0 & N1 & [P | P]).
-      - assert (0 <= l1 * (2 * a + b)) by (apply Rmult_le_pos; lra).
-        assert (0 < l0 * (3 - 2 * a - b)) by (apply Rmult_lt_0_compat; lra). lra.
-      - assert (0 <= l0 * (3 - 2 * a - b)) by (apply Rmult_le_pos; lra).
-        assert (0 < l1 * (2 * a + b)) by (apply Rmult_lt_0_compat; lra). lra. }
+    assert (0 < 2 * (l0 * (1 - a) + l1 * a) + (l0 * (1 - b) + l1 * b)) by nra.
     assert (0 < (b - a) * (b - a) * (2 * (l0 * (1 - a) + l1 * a) + (l0 * (1 - b) + l1 * b)))
       by (apply Rmult_lt_0_compat; auto). lra.
   - pose proof (trapezoid y a b L) as T. rewrite !V in T.
-    assert (0 < l0 * (1 - a) + l1 * a + (l0 * (1 - b) + l1 * b)).
-    { destruct N as (N0 & N1 & [P | P]).
-      - assert (0 <= l1 * (a + b)) by (apply Rmult_le_pos; lra).
-        assert (0 < l0 * (2 - a - b)) by (apply Rmult_lt_0_compat; lra). lra.
-      - assert (0 <= l0 * (2 - a - b)) by (apply Rmult_le_pos; lra).
-        assert (0 < l1 * (a + b)) by (apply Rmult_lt_0_compat; lra). lra. }
+    assert (0 < l0 * (1 - a) + l1 * a + (l0 * (1 - b) + l1 * b)) by nra.
     assert (0 < (b - a) * (l0 * (1 - a) + l1 * a + (l0 * (1 - b) + l1 * b)))
       by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
@@ -194,12 +184,12 @@ Proof.
   - intros t T. rewrite At. simpl.
     destruct H as [(-> & _ & -> & ->) | (-> & _ & -> & ->)]; simpl; rewrite Ev, Er.
     + replace (_ + _) with (k * (r - t)) by ring. apply Rmult_lt_0_compat; lra.
-    + replace (_ + _) with (- (k * (r - t))) by ring. assert (0 < k * (r - t)) by (apply
-        Rmult_lt_0_compat; lra). lra.
+    + replace (_ + _) with (- (k * (r - t))) by ring.
+      assert (0 < k * (r - t)) by (apply Rmult_lt_0_compat; lra). lra.
   - intros t T. rewrite At. simpl.
     destruct H as [(_ & -> & -> & ->) | (_ & -> & -> & ->)]; simpl; rewrite Ev, Er.
-    + replace (_ + _) with (- (k * (t - r))) by ring. assert (0 < k * (t - r)) by (apply
-        Rmult_lt_0_compat; lra). lra.
+    + replace (_ + _) with (- (k * (t - r))) by ring.
+      assert (0 < k * (t - r)) by (apply Rmult_lt_0_compat; lra). lra.
     + replace (_ + _) with (k * (t - r)) by ring. apply Rmult_lt_0_compat; lra.
   - intros p N. unfold sign_at_root_of. rewrite R. pose proof (sign_right S (value_at p v w)) as P.
     rewrite value_at_form in P. destruct (value_near_root p (exact v) (exact w) N V W) as (c & C & E).
@@ -210,9 +200,8 @@ Qed.
 Lemma inside_right l t : length l = 2%nat -> opposite l = false -> 0 < t < 1 ->
   sign_is_right (inside l) (form_at l t).
 Proof.
-  intros L O T. destruct (length_2 l L) as (l0 & l1 & ->). unfold opposite, inside, at_time in *. simpl
-    in *.
-  pose proof (sign_right S l0) as A. pose proof (sign_right S l1) as B.
+  intros L O T. destruct (length_2 l L) as (l0 & l1 & ->). unfold opposite, inside, at_time in *.
+  simpl in *. pose proof (sign_right S l0) as A. pose proof (sign_right S l1) as B.
   destruct (sign_of l0), (sign_of l1); try discriminate; simpl in *; auto; nra.
 Qed.
 
@@ -265,18 +254,14 @@ Proof.
     - intros Y. assert (x <> r) by (intros ->; lra). specialize (Tx H).
       destruct (Rlt_or_le x r); auto. assert (0 <= form_at d x * (r - x)) by nra. lra.
     - intros R. apply Md; lra.
-    - intros Y R. destruct (Req_dec x r) as [| H]; auto. specialize (Tx H). specialize (Ty H).
-      destruct (Rlt_or_le x r); [assert (0 <= form_at d r * (x - r)) by nra |
-                                 assert (0 <= form_at d x * (r - x)) by nra]; lra. }
+    - intros Y R. nra. }
   assert (Rising : 0 < form_at d x -> (0 < form_at y x -> r < x) /\ (form_at d r <= 0 -> r < x)
                    /\ (form_at y x = 0 -> 0 <= form_at d r -> x = r)).
   { intros D. split; [| split].
     - intros Y. assert (x <> r) by (intros ->; lra). specialize (Tx H).
       destruct (Rlt_or_le r x); auto. assert (0 <= form_at d x * (r - x)) by nra. lra.
     - intros R. apply Md; lra.
-    - intros Y R. destruct (Req_dec x r) as [| H]; auto. specialize (Tx H). specialize (Ty H).
-      destruct (Rlt_or_le x r); [assert (0 <= form_at d x * (r - x)) by nra |
-                                 assert (0 <= form_at d r * (x - r)) by nra]; lra. }
+    - intros Y R. nra. }
   assert (Zero : form_at d x = 0 -> form_at y x = 0 -> x = r).
   { intros D Y. destruct (Req_dec x r) as [| H]; auto. specialize (Tx H). rewrite D, Y in Tx. lra. }
   destruct (sign_at_root_of l y), (sign_at_root_of l d); simpl in *;
@@ -304,8 +289,8 @@ Theorem reduction y g r : length y = 4%nat -> length g = 5%nat -> form_at y r = 
     c * (exact (y#0) * exact (y#3) * form_at g r) = (1 - r) * r * form_at (reduced y g) r.
 Proof.
   intros Ly Lg Z. four y Ly. destruct (length_5 g Lg) as (g0 & g1 & g2 & g3 & g4 & ->).
-  unfold reduced. match goal with |- context [normalized ?p] => destruct (normalized_at p) as (c & C &
-    E) end.
+  unfold reduced.
+  match goal with |- context [normalized ?p] => destruct (normalized_at p) as (c & C & E) end.
   exists c. split; auto. rewrite E.
   replace (exact _ * exact _ * _) with (exact (y0) * exact (y3) * form_at [g0; g1; g2; g3; g4] r
     - form_at [y0; y1; y2; y3] r * (exact y3 * exact g0 * (1 - r) + exact y0 * exact g4 * r))
@@ -484,11 +469,11 @@ Proof.
   intros Ly Ld Ed X Z M. four y Ly. destruct (length_3 d Ld) as (d0 & d1 & d2 & ->).
   assert (N : [d0; d1; d2] <> []) by discriminate.
   assert (D0 : exact d0 < 0).
-  { specialize (M 0 x ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M. simpl in
-      M. lra. }
+  { specialize (M 0 x ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M.
+    simpl in M. lra. }
   assert (D2 : 0 < exact d2).
-  { specialize (M x 1 ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M. simpl in
-      M. lra. }
+  { specialize (M x 1 ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M.
+    simpl in M. lra. }
   unfold sign_at_extremum.
   match goal with |- context [negate (linear_at_extremum _ ?f)] => set (f0 := f) end.
   match goal with |- context [if _ then _ else linear_at_extremum _ ?f] => set (f1 := f) end.

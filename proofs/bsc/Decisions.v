@@ -72,18 +72,18 @@ Qed.
 Lemma plus_form_at p q t : length p = length q ->
   form_at (plus_form p q) t = form_at p t + form_at q t /\ length (plus_form p q) = length p.
 Proof.
-  unfold at_time. revert q. induction p as [| a p IH]; intros [| b q] L; try discriminate; simpl;
-    [split; [ring | easy] |].
-  injection L as L. destruct (IH q L) as (E & K). rewrite E, !map_length, K, exact_add, L. split; [ring
-    | easy].
+  unfold at_time. revert q.
+  induction p as [| a p IH]; intros [| b q] L; try discriminate; simpl; [split; [ring | easy] |].
+  injection L as L. destruct (IH q L) as (E & K). rewrite E, !map_length, K, exact_add, L.
+  split; [ring | easy].
 Qed.
 Lemma minus_form_at p q t : length p = length q ->
   form_at (minus_form p q) t = form_at p t - form_at q t /\ length (minus_form p q) = length p.
 Proof.
-  unfold at_time. revert q. induction p as [| a p IH]; intros [| b q] L; try discriminate; simpl;
-    [split; [ring | easy] |].
-  injection L as L. destruct (IH q L) as (E & K). rewrite E, !map_length, K, exact_sub, L. split; [ring
-    | easy].
+  unfold at_time. revert q.
+  induction p as [| a p IH]; intros [| b q] L; try discriminate; simpl; [split; [ring | easy] |].
+  injection L as L. destruct (IH q L) as (E & K). rewrite E, !map_length, K, exact_sub, L.
+  split; [ring | easy].
 Qed.
 Lemma product_at p q m n t : length p = Datatypes.S m -> length q = Datatypes.S n ->
   form_at (product p q) t = form_at p t * form_at q t /\ length (product p q) = Datatypes.S (m + n).
@@ -102,23 +102,23 @@ Proof.
     length s = Datatypes.S n -> form_at (minus_form (product p q) (product r s)) t
       = form_at p t * form_at q t - form_at r t * form_at s t /\
     length (minus_form (product p q) (product r s)) = Datatypes.S (m + n)).
-  { intros p q r s Lp Lq Lr Ls. destruct (product_at p q m n t Lp Lq) as (E & L). destruct (product_at r
-      s m n t Lr Ls) as (F & K).
+  { intros p q r s Lp Lq Lr Ls. destruct (product_at p q m n t Lp Lq) as (E & L).
+    destruct (product_at r s m n t Lr Ls) as (F & K).
     destruct (minus_form_at (product p q) (product r s) t) as (G & J); [congruence |]. rewrite G, E, F.
       split; congruence. }
-  destruct (D (vy b) (vz c) (vz b) (vy c)) as (E0 & L0); auto. destruct (D (vz b) (vx c) (vx b) (vz c))
-    as (E1 & L1); auto.
+  destruct (D (vy b) (vz c) (vz b) (vy c)) as (E0 & L0); auto.
+  destruct (D (vz b) (vx c) (vx b) (vz c)) as (E1 & L1); auto.
   destruct (D (vx b) (vy c) (vy b) (vx c)) as (E2 & L2); auto.
-  split; [| now repeat split]. unfold vector_at, cross, cross_form. cbn [vx vy vz x y z]. now rewrite
-    E0, E1, E2.
+  split; [| now repeat split]. unfold vector_at, cross, cross_form. cbn [vx vy vz x y z].
+  now rewrite E0, E1, E2.
 Qed.
 Lemma dot_at b c m n t : degree b m -> degree c n ->
   form_at (dot_form b c) t = dot (vector_at b t) (vector_at c t) /\ length (dot_form b c) = Datatypes.S
     (m + n).
 Proof.
   intros (B0 & B1 & B2) (C0 & C1 & C2).
-  destruct (product_at (vx b) (vx c) m n t B0 C0) as (E0 & L0). destruct (product_at (vy b) (vy c) m n t
-    B1 C1) as (E1 & L1).
+  destruct (product_at (vx b) (vx c) m n t B0 C0) as (E0 & L0).
+  destruct (product_at (vy b) (vy c) m n t B1 C1) as (E1 & L1).
   destruct (product_at (vz b) (vz c) m n t B2 C2) as (E2 & L2). unfold dot_form.
   destruct (plus_form_at (product (vx b) (vx c)) (product (vy b) (vy c)) t) as (E3 & L3); [congruence
     |].
@@ -132,9 +132,8 @@ Theorem forms_y b c p t : degree b 1 -> degree c 1 -> degree p 1 ->
   form_at (y_form b c p) t = det (vector_at b t) (vector_at c t) (vector_at p t) /\ length (y_form b c
     p) = 4%nat.
 Proof.
-  intros B C P. destruct (cross_at b c 1 1 t B C) as (E & D). destruct (dot_at _ p 2 1 t D P) as (F &
-    L).
-  unfold y_form, det. now rewrite F, E.
+  intros B C P. destruct (cross_at b c 1 1 t B C) as (E & D).
+  destruct (dot_at _ p 2 1 t D P) as (F & L). unfold y_form, det. now rewrite F, E.
 Qed.
 Theorem forms_weights b c p t : degree b 1 -> degree c 1 -> degree p 1 ->
   let B := vector_at b t in let C := vector_at c t in let P := vector_at p t in
@@ -150,11 +149,10 @@ Proof.
     form_at (dot_form (cross_form v w) (cross_form b c)) t = dot (cross (vector_at v t) (vector_at w t))
       (cross B C) /\
     length (dot_form (cross_form v w) (cross_form b c)) = 5%nat).
-  { intros v w V W. destruct (cross_at v w 1 1 t V W) as (E & D). destruct (dot_at _ _ 2 2 t D Dn) as (F
-      & L).
-    rewrite F, E, En. now split. }
-  destruct (Q b p Db Dp) as (E2 & L2). destruct (Q p c Dp Dc) as (E1 & L1). destruct (Q b c Db Dc) as
-    (E0 & L0).
+  { intros v w V W. destruct (cross_at v w 1 1 t V W) as (E & D).
+    destruct (dot_at _ _ 2 2 t D Dn) as (F & L). rewrite F, E, En. now split. }
+  destruct (Q b p Db Dp) as (E2 & L2). destruct (Q p c Dp Dc) as (E1 & L1).
+  destruct (Q b c Db Dc) as (E0 & L0).
   destruct (Q p b Dp Db) as (Eb & Lb). fold B C P in E2, E1, E0, Eb.
   unfold inside_face_forms, inside_edges_forms, normal_squared, weight_0, weight_1, weight_2, on_a,
     on_b, square_normal.
@@ -330,12 +328,12 @@ Theorem edges_separated n a0 a1 b0 b1 : before n a0 b0 -> before n a0 b1 -> befo
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
   intros P00 P01 P10 P11 (t & T & (p & (u & U & Ea) & (w & W & Eb))).
-  pose proof (before_throughout n _ _ t P00 T) as Q0. pose proof (before_throughout n _ _ t P01 T) as
-    Q1.
-  pose proof (before_throughout n _ _ t P10 T) as Q2. pose proof (before_throughout n _ _ t P11 T) as
-    Q3.
-  revert Ea Eb Q0 Q1 Q2 Q3. generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t). intros a c d
-    g Ea Eb Q0 Q1 Q2 Q3.
+  pose proof (before_throughout n _ _ t P00 T) as Q0.
+  pose proof (before_throughout n _ _ t P01 T) as Q1.
+  pose proof (before_throughout n _ _ t P10 T) as Q2.
+  pose proof (before_throughout n _ _ t P11 T) as Q3.
+  revert Ea Eb Q0 Q1 Q2 Q3. generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t).
+  intros a c d g Ea Eb Q0 Q1 Q2 Q3.
   assert (Z : (1 - u) * ((1 - w) * dot n (minus d a) + w * dot n (minus g a))
               + u * ((1 - w) * dot n (minus d c) + w * dot n (minus g c)) = 0).
   { transitivity (dot n (minus p p)); [rewrite Ea at 2; rewrite Eb at 1 | ]; unfold dot, along, minus;

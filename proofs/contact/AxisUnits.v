@@ -120,9 +120,8 @@ Proof.
   replace (minus (finish (exact_motion v)) (finish (exact_motion w))) with (vector_at p1 0)
     by (unfold vector_at, p1, at_time, minus; apply same_point; cbn [x y z vx vy vz map form length];
       rewrite exact_sub; simpl; ring).
-  rewrite <- C, <- E, At by exact F. destruct D as (Dx & Dy & Dz). unfold vector_at. rewrite !At by
-    assumption.
-  rewrite !andb_true_iff, !Z.eqb_eq, Z.leb_le. split.
+  rewrite <- C, <- E, At by exact F. destruct D as (Dx & Dy & Dz). unfold vector_at.
+  rewrite !At by assumption. rewrite !andb_true_iff, !Z.eqb_eq, Z.leb_le. split.
   - intros (((X & Y) & Z) & P). split; [| now apply IZR_le].
     apply same_point; cbn [x y z origin]; apply (f_equal IZR); assumption.
   - intros (O & P). apply point_eq in O. cbn [x y z origin] in O. destruct O as (X & Y & Z).
@@ -155,8 +154,8 @@ Proof.
       A, B, C, D.
     - apply (vertex_edge_separated (minus origin n)); unfold before; rewrite !O; lra.
     - apply (vertex_edge_separated n); unfold before; rewrite !E; lra. }
-  unfold separated. intros P. apply orb_prop in P. destruct P as [P | P]; [apply orb_prop in P; destruct P
-    as [P | P] |].
+  unfold separated. intros P. apply orb_prop in P.
+  destruct P as [P | P]; [apply orb_prop in P; destruct P as [P | P] |].
   - apply (Along x (Point 1 0 0)); auto. intros p. unfold dot. simpl. ring.
   - apply (Along y (Point 0 1 0)); auto. intros p. unfold dot. simpl. ring.
   - apply (Along z (Point 0 0 1)); auto. intros p. unfold dot. simpl. ring.

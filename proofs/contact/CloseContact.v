@@ -329,7 +329,6 @@ Proof.
       by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
     assert (N2 : (2 ^ n = 2 ^ width_bits q * 2 ^ (n - width_bits q))%Z)
       by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
-    assert (Pn : (0 < 2 ^ (n - width_bits q))%Z) by (apply Z.pow_pos_nonneg; lia).
     repeat split; try lia; nia. }
   exists (IZR (2 ^ n) ^ 3 * k). split; [apply Rmult_lt_0_compat; auto; apply pow_lt; now apply power_positive |].
   change (close_y r) with (sub_y (close_y q) n a w). rewrite sub_part_right, E by easy. unfold part_of at 1.
@@ -809,7 +808,6 @@ Proof.
     intros t T Z. destruct (All t T Z); auto. left. exists r. split; [now left | easy]. }
   destruct (middle_of q H) as (Em & Zm). set (m := close_start q + / 2 * (close_end q - close_start q)) in *.
   pose proof H as (_ & _ & (W & U & Lo & Hi) & _).
-  assert (Cu : (unit_bits q + 60 <= max_bits)%Z) by (apply andb_prop in C; destruct C as (C & _); now apply Z.leb_le in C).
   assert (Inm : contact_in_middle asked = true <-> Inside m).
   { unfold contact_in_middle, asked. cbn [low unit_bits width_bits]. rewrite <- Em, <- inside_from_place.
     - destruct (inside_from _ _ _); split; intros X; try discriminate X; easy.

@@ -94,8 +94,8 @@ Lemma face_at_normal p a b c : let B := minus b a in let C := minus c a in let P
   p = along (along a (weight_1 B C P / square_normal B C) B) (weight_2 B C P / square_normal B C) C.
 Proof.
   intros B C P N Y. apply square_positive in N. pose proof (decomposed B C P) as D. cbv zeta in D.
-  rewrite Y in D. apply point_eq in D. unfold square_normal. set (n2 := dot (cross B C) (cross B C)) in
-    *.
+  rewrite Y in D. apply point_eq in D. unfold square_normal.
+  set (n2 := dot (cross B C) (cross B C)) in *.
   set (u := weight_1 B C P) in *. set (v := weight_2 B C P) in *.
   destruct D as (D0 & D1 & D2). unfold along, origin in D0, D1, D2. cbn [x y z] in D0, D1, D2.
   assert (Ep : x p = x a + x P /\ y p = y a + y P /\ z p = z a + z P) by (unfold P, minus; simpl; lra).
@@ -119,8 +119,8 @@ Lemma degenerate a b c : cross (minus b a) (minus c a) = origin ->
 Proof.
   intros H. destruct (origin_dec (minus b a)) as [E | N].
   - right. left. exists 0. split; [lra |]. vector.
-  - destruct (parallel _ _ N H) as (k & E). apply point_eq in E. destruct a as [a0 a1 a2], b as [b0 b1
-      b2], c as [c0 c1 c2].
+  - destruct (parallel _ _ N H) as (k & E). apply point_eq in E.
+    destruct a as [a0 a1 a2], b as [b0 b1 b2], c as [c0 c1 c2].
     coordinates. destruct E as (E0 & E1 & E2).
     destruct (Rle_or_lt 0 k) as [K | K]; [destruct (Rle_or_lt k 1) as [L | L] |].
     + left. exists k. split; [lra |]. apply same_point; simpl; lra.
@@ -175,8 +175,8 @@ Proof.
       assert (0 <= (1 - u - v) * dot (cross (minus b a) (minus c a)) (cross (minus b a) (minus c a)))
         by (apply Rmult_le_pos; lra). repeat split; nra.
   - intros [(N & Y & W2 & W1 & W0) | [(u & U & E) | [(u & U & E) | (u & U & E)]]].
-    + pose proof (face_at_normal p a b c N Y) as E. apply square_positive in N. fold (square_normal
-        (minus b a) (minus c a)) in N.
+    + pose proof (face_at_normal p a b c N Y) as E. apply square_positive in N.
+      fold (square_normal (minus b a) (minus c a)) in N.
       set (n2 := square_normal (minus b a) (minus c a)) in *. unfold weight_0 in W0. fold (square_normal
         (minus b a) (minus c a)) in W0.
       fold n2 in W0. do 2 eexists. repeat split; [| | | exact E];
@@ -201,8 +201,8 @@ Lemma edges_at_normal a0 a1 b0 b1 : let B := minus a1 a0 in let C := minus b1 b0
   along a0 (on_a B C P / square_normal B C) B = along b0 (on_b B C P / square_normal B C) C.
 Proof.
   intros B C P N Y. apply square_positive in N. pose proof (decomposed B C P) as D. cbv zeta in D.
-  rewrite Y in D. apply point_eq in D. unfold square_normal. set (n2 := dot (cross B C) (cross B C)) in
-    *.
+  rewrite Y in D. apply point_eq in D. unfold square_normal.
+  set (n2 := dot (cross B C) (cross B C)) in *.
   unfold on_a. fold (weight_1 B C P). replace (on_b B C P) with (- weight_2 B C P)
     by (unfold on_b, weight_2, dot, cross; simpl; ring).
   set (u := weight_1 B C P) in *. set (v := weight_2 B C P) in *.
@@ -221,8 +221,8 @@ Proof.
   intros E B C P. fold B C in E. apply point_eq in E.
   assert (Ep : P = along (along origin s B) (- t) C).
   { unfold P. clearbody B C. destruct E as (E0 & E1 & E2). vector. }
-  rewrite Ep. clearbody B C. unfold det, on_a, on_b, square_normal. destruct B, C. coordinates. repeat
-    split; ring.
+  rewrite Ep. clearbody B C. unfold det, on_a, on_b, square_normal. destruct B, C. coordinates.
+  repeat split; ring.
 Qed.
 
 (** In contact, Y = 0 and no weight is negative. *)
@@ -267,12 +267,12 @@ Proof.
   - intros (p & (s & S & Ea) & (t & T & Eb)).
     destruct (origin_dec (cross (minus a1 a0) (minus b1 b0))) as [E | N].
     + right. destruct (origin_dec (minus a1 a0)) as [Ez | Na].
-      { left. exists t. split; auto. rewrite <- Eb, Ea. apply point_eq in Ez. destruct Ez as (Z0 & Z1 &
-          Z2).
+      { left. exists t. split; auto. rewrite <- Eb, Ea. apply point_eq in Ez.
+        destruct Ez as (Z0 & Z1 & Z2).
         unfold along. rewrite Z0, Z1, Z2. destruct a0. simpl. apply same_point; simpl; ring. }
       destruct (origin_dec (minus b1 b0)) as [Ez | Nb].
-      { right. right. left. exists s. split; auto. rewrite <- Ea, Eb. apply point_eq in Ez. destruct Ez
-          as (Z0 & Z1 & Z2).
+      { right. right. left. exists s. split; auto. rewrite <- Ea, Eb. apply point_eq in Ez.
+        destruct Ez as (Z0 & Z1 & Z2).
         unfold along. rewrite Z0, Z1, Z2. destruct b0. simpl. apply same_point; simpl; ring. }
       destruct (parallel _ _ Na E) as (k & Ek).
       assert (K : k <> 0) by (intros ->; apply Nb; rewrite Ek; vector).
@@ -320,8 +320,8 @@ Proof.
       assert (0 <= u * (1 - u) * dot (minus e1 e0) (minus e1 e0)) by (apply Rmult_le_pos; nra). lra.
   - intros (C & D). destruct (origin_dec (minus e1 e0)) as [E | N].
     + assert (Z : minus v e0 = origin).
-      { apply square_0. replace (dot (minus v e0) (minus v e0)) with (dot (minus v e0) (minus v e1)) in
-          *.
+      { apply square_0.
+        replace (dot (minus v e0) (minus v e0)) with (dot (minus v e0) (minus v e1)) in *.
         - assert (0 <= dot (minus v e0) (minus v e0)) by (unfold dot; nra).
           assert (X : minus v e1 = minus v e0).
           { vector. }
@@ -373,8 +373,8 @@ Theorem vertex_face_union v f0 f1 f2 : vertex_face_collides v f0 f1 f2 <->
 Proof.
   unfold vertex_face_collides, face_border_collides, vertex_edge_collides, face_regular_at, sometime.
     split.
-  - intros (t & T & C). apply face_at_a_time in C. unfold face_border in C. destruct C as [C | [C | [C |
-      C]]]; eauto 8.
+  - intros (t & T & C). apply face_at_a_time in C. unfold face_border in C.
+    destruct C as [C | [C | [C | C]]]; eauto 8.
   - intros [(t & T & C) | [(t & T & C) | [(t & T & C) | (t & T & C)]]]; exists t; split; auto;
       apply face_at_a_time; unfold face_border; auto.
 Qed.
@@ -404,8 +404,8 @@ Proof.
   unfold vertex_vertex_collides, sometime. split.
   - intros (t & T & H). apply E, point_eq in H. destruct p as [a b c], q as [d e f]. coordinates.
     destruct H as (H0 & H1 & H2). destruct (Req_dec t 0) as [-> | Nt].
-    { assert (a = 0) by lra. assert (b = 0) by lra. assert (c = 0) by lra. subst. split; [apply
-        same_point; simpl; ring | lra]. }
+    { assert (a = 0) by lra. assert (b = 0) by lra. assert (c = 0) by lra. subst.
+      split; [apply same_point; simpl; ring | lra]. }
     assert (Q : forall g h, 0 + (1 - t) * g + t * h = 0 -> h = - ((1 - t) / t) * g)
       by (intros g h Z; apply Rmult_eq_reg_r with t; auto; field_simplify; auto; lra).
     rewrite (Q _ _ H0), (Q _ _ H1), (Q _ _ H2). split; [apply same_point; simpl; ring |].
@@ -440,8 +440,8 @@ Proof.
       Rabs_pos_lt |].
     apply H. split; [split; [exact I | congruence] | exact T]. }
   assert (After : forall t, s < t <= b -> 0 < f t).
-  { intros t T. destruct (Rlt_or_le 0 (f t)) as [| H]; auto. assert (t <= s) by (apply Up; split; [lra |
-      easy]). lra. }
+  { intros t T. destruct (Rlt_or_le 0 (f t)) as [| H]; auto.
+    assert (t <= s) by (apply Up; split; [lra | easy]). lra. }
   assert (Zs : f s = 0).
   { destruct (Req_dec (f s) 0) as [| N]; auto. destruct (Near N) as (d & D & H).
     destruct (Rlt_or_le (f s) 0) as [L | L].
@@ -474,8 +474,8 @@ Proof.
   assert (Eb : minus b p = along w 1 e) by (unfold e, w, along, minus; simpl; apply same_point; simpl;
     ring).
   assert (Ep : forall u, p = along a u e <-> along origin (- u) e = w).
-  { intros u. unfold w, along, minus, origin. split; intros H; apply point_eq in H; cbn [x y z] in H;
-      apply same_point; cbn [x y z]; lra. }
+  { intros u. unfold w, along, minus, origin.
+    split; intros H; apply point_eq in H; cbn [x y z] in H; apply same_point; cbn [x y z]; lra. }
   rewrite Eb. unfold in_segment. fold e. clearbody e w. clear Eb.
   destruct (origin_dec e) as [-> | N].
   { destruct (origin_dec w) as [-> | Nw].
@@ -510,8 +510,8 @@ Proof.
     -> 0 < dot n (minus s p)).
   { intros n q r s (u & U & ->) A B.
     replace (dot _ _) with ((1 - u) * dot n (minus q p) + u * dot n (minus r p)) by vector.
-    destruct (Req_dec u 0) as [-> | Nu]; [lra |]. assert (0 < u * dot n (minus r p)) by (apply
-      Rmult_lt_0_compat; lra).
+    destruct (Req_dec u 0) as [-> | Nu]; [lra |].
+    assert (0 < u * dot n (minus r p)) by (apply Rmult_lt_0_compat; lra).
     assert (0 <= (1 - u) * dot n (minus q p)) by (apply Rmult_le_pos; lra). lra. }
   destruct (degenerate a b c D) as [S | [S | S]].
   - destruct (off_segment p a b) as [I | (n & A & B)]; [left; apply face_at_a_time; right; now left |].
@@ -536,8 +536,8 @@ Proof.
   destruct (parallel _ _ N H) as (k & K).
   set (e := minus a1 a0) in *. set (w := minus b0 a0).
   assert (E1 : minus b1 a0 = along w k e).
-  { apply point_eq in K. unfold w, along, minus, origin in *. cbn [x y z] in *. apply same_point; cbn [x
-      y z]; lra. }
+  { apply point_eq in K. unfold w, along, minus, origin in *. cbn [x y z] in *.
+    apply same_point; cbn [x y z]; lra. }
   assert (E2 : minus b0 a1 = along w (-1) e).
   { unfold w, e, along, minus. cbn [x y z]. apply same_point; cbn [x y z]; ring. }
   assert (E3 : minus b1 a1 = along w (k - 1) e).
@@ -547,8 +547,8 @@ Proof.
     segments_meet a0 a1 b0 b1).
   { intros s t m S T E Ew. exists (along a0 s e). split; [exists s; now split |]. exists t. split; auto.
       rewrite K.
-    apply point_eq in Ew. unfold w, along, minus, origin in *. cbn [x y z] in *. rewrite E. apply
-      same_point; cbn [x y z]; lra. }
+    apply point_eq in Ew. unfold w, along, minus, origin in *. cbn [x y z] in *. rewrite E.
+    apply same_point; cbn [x y z]; lra. }
   rewrite E1, E2, E3. clear E1 E2 E3. apply square_positive in N.
   set (m := dot w e / dot e e). set (n := along w (- m) e).
   assert (Pn : dot n e = 0) by (unfold n, m; clearbody e w; unfold dot, along in *; simpl in *; field;
@@ -610,8 +610,8 @@ Proof.
 Qed.
 Lemma smooth_cross v w : smooth v -> smooth w -> smooth (fun t => cross (v t) (w t)).
 Proof.
-  intros (V0 & V1 & V2) (W0 & W1 & W2). repeat split; cbn [x y z cross]; apply cont_minus; now apply
-    cont_mult.
+  intros (V0 & V1 & V2) (W0 & W1 & W2).
+  repeat split; cbn [x y z cross]; apply cont_minus; now apply cont_mult.
 Qed.
 Lemma cont_dot v w : smooth v -> smooth w -> continuity (fun t => dot (v t) (w t)).
 Proof.
@@ -738,15 +738,15 @@ Proof.
   - right. left. exists (weight_1 B C P / n2). split; [apply Bound; lra |]. rewrite E at 1. rewrite Z2.
     unfold along, Rdiv. rewrite Rmult_0_l. cbn [x y z]. apply same_point; cbn [x y z]; unfold B; ring.
   - right. right. right. apply segment_sym. exists (weight_2 B C P / n2). split; [apply Bound; lra |].
-    rewrite E at 1. rewrite Z1. unfold along, Rdiv. rewrite Rmult_0_l. cbn [x y z]. apply same_point;
-      cbn [x y z]; unfold C; ring.
+    rewrite E at 1. rewrite Z1. unfold along, Rdiv. rewrite Rmult_0_l. cbn [x y z].
+    apply same_point; cbn [x y z]; unfold C; ring.
   - right. right. left. exists (weight_2 B C P / n2). split; [apply Bound; lra |].
     assert (E1 : weight_1 B C P / n2 = 1 - weight_2 B C P / n2).
     { apply Rmult_eq_reg_r with n2; [field_simplify; lra | lra]. }
-    rewrite E at 1. rewrite E1. unfold along, B, C, minus. cbn [x y z]. apply same_point; cbn [x y z];
-      ring.
-  - left. unfold inside_face, weight_0. fold B C P. fold (square_normal B C). fold n2. repeat split;
-      lra.
+    rewrite E at 1. rewrite E1. unfold along, B, C, minus. cbn [x y z].
+    apply same_point; cbn [x y z]; ring.
+  - left. unfold inside_face, weight_0. fold B C P. fold (square_normal B C). fold n2.
+    repeat split; lra.
 Qed.
 Lemma regular_edges_border a0 a1 b0 b1 : regular_edges a0 a1 b0 b1 -> inside_edges a0 a1 b0 b1 \/
   edges_border a0 a1 b0 b1.
@@ -770,8 +770,8 @@ Proof.
   - right. left. exists (on_b B C P / n2). split; [apply Bound; lra |]. now rewrite <- E, Z, Nul, Zero.
   - right. right. left. exists (on_b B C P / n2). split; [apply Bound; lra |].
     rewrite <- E. replace (on_a B C P) with n2 by lra. now rewrite One, Za.
-  - right. right. right. left. exists (on_a B C P / n2). split; [apply Bound; lra |]. now rewrite E, Z,
-      Nul, Zero.
+  - right. right. right. left. exists (on_a B C P / n2). split; [apply Bound; lra |].
+    now rewrite E, Z, Nul, Zero.
   - right. right. right. right. exists (on_a B C P / n2). split; [apply Bound; lra |].
     rewrite E. replace (on_b B C P) with n2 by lra. now rewrite One, Zb.
   - left. unfold inside_edges. fold B C P. fold n2. repeat split; lra.

@@ -114,8 +114,8 @@ Proof.
 Qed.
 Lemma changes_moving y : length y = 4%nat -> (0 < count (inner_sign_changes y))%nat -> ~ Forall (eq 0) y.
 Proof.
-  intros L C Z. revert C. four y L. repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H
-    end.
+  intros L C Z. revert C. four y L.
+  repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H end.
   subst. unfold inner_sign_changes. cbn [map]. rewrite (sign_zero 0 eq_refl). simpl. lia.
 Qed.
 
@@ -153,14 +153,14 @@ Qed.
 (** A point just inside an interval. *)
 Lemma just_after s f a b : sign_after s f a -> a < b -> exists t, a < t < b /\ 0 < unit_of s * f t.
 Proof.
-  intros (d & D & H) L. exists (a + Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt;
-    lra).
+  intros (d & D & H) L. exists (a + Rmin d (b - a) / 2).
+  assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt; lra).
   pose proof (Rmin_l d (b - a)). pose proof (Rmin_r d (b - a)). split; [lra |]. apply H. lra.
 Qed.
 Lemma just_before s f a b : sign_before s f b -> a < b -> exists t, a < t < b /\ 0 < unit_of s * f t.
 Proof.
-  intros (d & D & H) L. exists (b - Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt;
-    lra).
+  intros (d & D & H) L. exists (b - Rmin d (b - a) / 2).
+  assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt; lra).
   pose proof (Rmin_l d (b - a)). pose proof (Rmin_r d (b - a)). split; [lra |]. apply H. lra.
 Qed.
 
@@ -266,16 +266,10 @@ Proof.
   assert (P : forall a b, 0 < a -> 0 <= a * b -> 0 <= b) by (clear; intros; nra).
   apply linear_times_once. destruct C as [(A & D & B) | (A & D & B)]; [left | right]; intros u V.
   - assert (Q0 : 0 <= q0) by (apply (P r); lra). assert (Q2 : 0 <= q2) by (apply (P (1 - r)); lra).
-    assert (Q1 : 0 <= q1).
-    { assert (0 <= r * q2) by (apply Rmult_le_pos; lra). assert (0 <= (1 - r) * q0) by (apply Rmult_le_pos;
-      lra).
-      destruct B; [apply (P (1 - r)) | apply (P r)]; lra. }
+    assert (Q1 : 0 <= q1) by nra.
     pose proof (positive_quadratic q0 q1 q2 u V Q0 Q1 Q2 ltac:(lra)). split; [lra |]. intros. lra.
   - assert (Q0 : 0 <= - q0) by (apply (P r); lra). assert (Q2 : 0 <= - q2) by (apply (P (1 - r)); lra).
-    assert (Q1 : 0 <= - q1).
-    { assert (0 <= r * - q2) by (apply Rmult_le_pos; lra).
-      assert (0 <= (1 - r) * - q0) by (apply Rmult_le_pos; lra).
-      destruct B; [apply (P (1 - r)) | apply (P r)]; lra. }
+    assert (Q1 : 0 <= - q1) by nra.
     pose proof (positive_quadratic (- q0) (- q1) (- q2) u V Q0 Q1 Q2 ltac:(lra)) as H.
     replace (quadratic_value (- q0) (- q1) (- q2) u) with (- quadratic_value q0 q1 q2 u) in H
       by (unfold quadratic_value; ring). split; [lra |]. intros. lra.
@@ -347,8 +341,8 @@ Proof.
     (2 * q0 * (1 - u) + q1 * u) ^ 2 + (4 * q0 * q2 - q1 ^ 2) * u ^ 2)
     by (intros; unfold quadratic_value; ring).
   assert (S : forall u, 0 <= 4 * q0 * quadratic_value q0 q1 q2 u).
-  { intros u. rewrite E. assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos;
-    [lra | apply pow2_ge_0]).
+  { intros u. rewrite E.
+    assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos; [lra | apply pow2_ge_0]).
     pose proof (pow2_ge_0 (2 * q0 * (1 - u) + q1 * u)). lra. }
   destruct (Rtotal_order q0 0) as [N | [-> | N]].
   - right. intros u _. specialize (S u). nra.
@@ -431,8 +425,8 @@ Proof.
     + rewrite D. ring.
   - intros r U M. destruct (multiple_root_hessian y r U M) as (k & K & E). unfold h in *. rewrite E in *.
     cbn [c0 c1 c2] in *. assert (k <> 0) by (intros ->; apply N; ring).
-    assert (0 < (1 - r) ^ 2) by (apply pow_lt; lra). assert (0 < r * (1 - r)) by (apply Rmult_lt_0_compat;
-      lra).
+    assert (0 < (1 - r) ^ 2) by (apply pow_lt; lra).
+    assert (0 < r * (1 - r)) by (apply Rmult_lt_0_compat; lra).
     assert (0 < k * (1 - r) ^ 2) by (apply Rmult_lt_0_compat; lra).
     assert (0 < k * (r * (1 - r))) by (apply Rmult_lt_0_compat; lra).
     split; [lra |]. apply Rmult_eq_reg_r with (2 * (k * (1 - r) ^ 2) - - (2 * k * r * (1 - r))); [| lra].
@@ -479,9 +473,8 @@ Proof.
   split; intros S.
   - assert (0 < - y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. intros u. rewrite R0.
     replace (- 3 * y3 * x / (- (3 * y3) + - 3 * y3 * x)) with (x / (1 + x)); [easy | field; nra].
-  - assert (0 < y3) by lra. assert (0 < y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. split;
-      [lra |].
-    intros u. rewrite R0.
+  - assert (0 < y3) by lra. assert (0 < y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |].
+    split; [lra |]. intros u. rewrite R0.
     replace (- (- 3 * y3 * x) / (3 * y3 + - (- 3 * y3 * x))) with (x / (1 + x)); [easy | field; nra].
 Qed.
 
@@ -538,7 +531,6 @@ Proof.
   - destruct (Z eq_refl) as (P2 & P1 & P0). exists (2 * y2), (- y1). split; [lra |]. split; [lra |].
     replace (form [y0; y1; y2; 0] (2 * y2) (- y1)) with (- (2 * (y2 * y2)) * (y1 * y1 - 4 * (y0 * y2))) by
       (simpl; ring).
-    assert (0 < y2 * y2) by nra.
     replace (4 * ((y1 * y1 - 3 * (y0 * y2)) * h2) - (y1 * y2 - 3 * (3 * (y0 * 0))) * (y1 * y2 - 3 * (3 * (y0
       * 0))))
       with (3 * (y2 * y2) * (y1 * y1 - 4 * (y0 * y2))) in D by (unfold h2; ring).
@@ -557,8 +549,8 @@ Proof.
     assert (V : at_ y (t / (s + t)) < 0).
     { four y L. rewrite cubic_at_ratio in N by lra. assert (0 < (s + t) ^ 3) by (apply pow_lt; lra). nra. }
     assert (U : 0 < t / (s + t) < 1).
-    { split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (s + t); [lra |]. field_simplify;
-      lra. }
+    { split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (s + t); [lra |].
+      field_simplify; lra. }
     destruct (just_after _ _ _ (t / (s + t)) B ltac:(lra)) as (u & Hu & P). simpl in P.
     destruct (between_signs (at_ y) u (t / (s + t))) as (r & Hr & Z); [apply continuous_form | lra | nra |].
     exists r. split; auto. lra. }
@@ -719,10 +711,7 @@ Proof.
   assert (S : forall t, unit_of s * (l0 + l1 * t) = unit_of s * l1 * (t - r))
     by (intros t; transitivity (unit_of s * (l0 + l1 * t) - unit_of s * (l0 + l1 * r)); [rewrite Zr |]; ring).
   rewrite S in Pu, Pw.
-  assert (u < r < w).
-  { split; apply Rnot_le_lt; intros K.
-    - assert (0 <= - (unit_of s * l1) * (u - r)) by (apply Rmult_le_pos; lra). lra.
-    - assert (0 <= - (unit_of s * l1) * (r - w)) by (apply Rmult_le_pos; lra). lra. }
+  assert (u < r < w) by nra.
   exists r. split; [lra |]. split; [destruct (H r ltac:(lra)) as (-> & _); rewrite Zr; ring |].
   intros t T Z. destruct (H t T) as (E & _ & Qt). rewrite E in Z. apply Rmult_integral in Z.
   destruct Z as [Z | Z]; auto. left. assert (Z' : l1 * (t - r) = 0) by lra. apply Rmult_integral in Z'. lra.
@@ -763,9 +752,8 @@ Proof.
 Qed.
 Lemma over_le a b n : (0 <= n)%Z -> (a <= b)%Z -> over a n <= over b n.
 Proof.
-  intros N L. apply power_positive in N. unfold over. apply Rmult_le_compat_r; [left;
-    now apply Rinv_0_lt_compat |].
-  now apply IZR_le.
+  intros N L. apply power_positive in N. unfold over.
+  apply Rmult_le_compat_r; [left; now apply Rinv_0_lt_compat |]. now apply IZR_le.
 Qed.
 Lemma over_finer a n m : (0 <= n <= m)%Z -> over (a * 2 ^ (m - n)) m = over a n.
 Proof.
@@ -937,7 +925,6 @@ Proof.
   assert (Es : over begin bits = part_start p) by (apply over_finer; lia).
   assert (Ef : over finish bits = part_end p) by (apply over_finer; lia).
   assert (W : (0 < 2 ^ (bits - level p))%Z) by (apply Z.pow_pos_nonneg; lia).
-  assert (Hw : (begin < finish)%Z) by (unfold begin, finish; lia).
   assert (R : (1 <= 2 ^ radius <= 2 ^ 24)%Z).
   { split; [change 1%Z with (2 ^ 0)%Z |]; apply Z.pow_le_mono_r; lia. }
   assert (T : (2 ^ bits = 2 ^ level p * 2 ^ (bits - level p))%Z) by (rewrite <- Z.pow_add_r by lia; f_equal;

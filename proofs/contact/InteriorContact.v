@@ -333,8 +333,8 @@ Proof.
   { intros extent. unfold k. apply Rdiv_lt_0_compat; apply power_positive; auto. unfold cut_of. lia. }
   assert (V : forall v, degree v 1 -> vector_stands (known_at T low bits width_bits v)
     (stretched (Point (k extent_x) (k extent_y) (k extent_z)) (vector_at v t))).
-  { intros v (L0 & L1 & L2). repeat split; cbn [known_at kx ky kz];
-      apply component_stands with (width := width); auto. }
+  { intros v (L0 & L1 & L2).
+    repeat split; cbn [known_at kx ky kz]; apply component_stands with (width := width); auto. }
   pose proof (weights_stand edges _ _ _ _ _ _ (V b degree_b) (V c degree_c) (V p degree_p)) as F.
   destruct (weights_stretched edges (k extent_x) (k extent_y) (k extent_z) (B t) (C t) (P t)) as (f & Pf &
     E); auto.
@@ -396,9 +396,8 @@ Proof.
     pose proof (common_roots_right (let n := cross_form b c in
       [quadratic_of (vx n); quadratic_of (vy n); quadratic_of (vz n)])) as K. cbv zeta in K.
     destruct (common_roots _) as [| m | f |]; try discriminate; cbn [kind_is_right] in K.
-    - destruct K as (k & t & Pk & T & (S0 & S1 & S2) & Only). exists t. split; [| apply normal_at, Only;
-        auto].
-      apply andb_prop in V. destruct V as (V0 & V1).
+    - destruct K as (k & t & Pk & T & (S0 & S1 & S2) & Only). exists t.
+      split; [| apply normal_at, Only; auto]. apply andb_prop in V. destruct V as (V0 & V1).
       assert (Neg : forall a, below_0 a = true -> a < 0) by (intros a; unfold below_0; destruct Rlt_dec;
         easy).
       apply Neg in V0, V1. rewrite S0, S1, minus_IZR in *. pose proof (power_positive _ Hb) as W.
@@ -480,8 +479,8 @@ Lemma near_told distinct more T q place bits o : is_part y q -> (level q <= bits
     | _ => answers (part_start q) (part_end q) o
   end.
 Proof.
-  intros H Hb O One. revert T place bits o Hb. induction more as [| more IH]; intros T place bits o Hb;
-    cbn [near].
+  intros H Hb O One. revert T place bits o Hb.
+  induction more as [| more IH]; intros T place bits o Hb; cbn [near].
   all: destruct (bracket_near y q place bits) as [[low high] |] eqn:E; [| discriminate].
   all: destruct (bracket_near_right y q _ place bits low high y_length H Hb O One E) as
     ((L & Lh & W) & Ps & Pe & K).
@@ -597,8 +596,8 @@ Lemma part_root three q : good three q -> any_root three (roots q) = true ->
 Proof.
   intros (H & _ & D) A. pose proof H as (L & Er & (Hl & _) & _).
   assert (Ru : exists u, 0 < u < 1 /\ at_ (part_y q) u = 0).
-  { rewrite Er in A. unfold any_root in A. apply orb_prop in A. destruct A as [O | A];
-    [now apply odd_changes |].
+  { rewrite Er in A. unfold any_root in A. apply orb_prop in A.
+    destruct A as [O | A]; [now apply odd_changes |].
     apply andb_prop in A. destruct A as (-> & C'). apply Nat.ltb_lt in C'. apply any_change; auto. }
   destruct Ru as (u & U & Zu). exists ((IZR (index q) + u) / IZR (2 ^ level q)).
   apply power_positive in Hl.
@@ -933,8 +932,8 @@ Qed.
 Theorem three_parts_wait three q rest : is_part y q -> waiting_fits (q :: rest) ->
   waiting_fits (waiting_next three q rest) /\ (length (waiting_next three q rest) <= 3)%nat.
 Proof.
-  intros (L & E & _) (F & S). assert (W : waiting_fits (waiting_next three q rest)); [| split; auto;
-    now apply three_at_most].
+  intros (L & E & _) (F & S).
+  assert (W : waiting_fits (waiting_next three q rest)); [| split; auto; now apply three_at_most].
   inversion_clear F as [| ? ? _ Fr]. cbn in S. rewrite E in S.
   pose proof (halves_changes (part_y q) L). destruct (halves_at (part_y q) 0 L) as (L0 & L1 & _).
   unfold waiting_next. cbn [filter].

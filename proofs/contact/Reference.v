@@ -52,11 +52,11 @@ Proof.
     0 <= form_at g t) gs).
   { rewrite forallb_forall, Forall_forall. assert (E : forall g, In g gs ->
       negb (same_sign (sign_there g) negative) = true <-> 0 <= form_at g t).
-    { intros g I. destruct (T g (or_intror I)) as (C & R). destruct (sign_there g); simpl in *; split; easy ||
-      lra. }
+    { intros g I. destruct (T g (or_intror I)) as (C & R).
+      destruct (sign_there g); simpl in *; split; easy || lra. }
     split; intros H g I; now apply E, H. }
-  destruct (T n2 (or_introl eq_refl)) as (C & R). destruct (sign_there n2); simpl in *; try easy; rewrite A; split; try
-    tauto; intuition lra.
+  destruct (T n2 (or_introl eq_refl)) as (C & R).
+  destruct (sign_there n2); simpl in *; try easy; rewrite A; split; try tauto; intuition lra.
 Qed.
 
 Lemma ends_of f : length f = 4%nat \/ length f = 5%nat ->
@@ -80,8 +80,8 @@ Proof.
   { split; [easy |]. intros t T (Z & _). now apply (@rootless_hull integers y t C T) in Z. }
   destruct (existsb _ gs) eqn:O.
   { split; [easy |]. intros t T (_ & _ & G). apply existsb_exists in O. destruct O as (g & I & O).
-    rewrite Forall_forall in G. specialize (G g I). pose proof (@sign_throughout_right integers g t T)
-      as R.
+    rewrite Forall_forall in G. specialize (G g I).
+    pose proof (@sign_throughout_right integers g t T) as R.
     destruct (@sign_throughout integers g); try easy. simpl in R. lra. }
   assert (Len : forall f, In f (n2 :: gs) -> length f = 5%nat)
     by (intros f [<- | I]; [exact N | now apply (proj1 (Forall_forall _ _) F)]).
@@ -92,22 +92,22 @@ Proof.
   assert (Z1 : Z.eqb (last y 0%Z) 0 = true <-> form_at y 1 = 0)
     by (rewrite Y1, Z.eqb_eq; split; [now intros -> | now intros H; apply eq_IZR in H]).
   destruct (Z.eqb (hd 0%Z y) 0 && contact_at at_start n2 gs) eqn:E0.
-  { split; auto. intros _. apply andb_prop in E0. exists 0. split; [lra |]. split; [now apply Z0 | now
-    apply At0]. }
+  { split; auto. intros _. apply andb_prop in E0. exists 0. split; [lra |].
+    split; [now apply Z0 | now apply At0]. }
   destruct (Z.eqb (last y 0%Z) 0 && contact_at at_end n2 gs) eqn:E1.
-  { split; auto. intros _. apply andb_prop in E1. exists 1. split; [lra |]. split; [now apply Z1 | now
-    apply At1]. }
+  { split; auto. intros _. apply andb_prop in E1. exists 1. split; [lra |].
+    split; [now apply Z1 | now apply At1]. }
   assert (Inside : forall t, 0 <= t <= 1 -> regular_at y gs n2 t -> 0 < t < 1).
-  { intros t T (Z & G). destruct (Req_dec t 0) as [-> |]; [apply Z0 in Z; apply At0 in G; now rewrite Z,
-    G in E0 |].
+  { intros t T (Z & G).
+    destruct (Req_dec t 0) as [-> |]; [apply Z0 in Z; apply At0 in G; now rewrite Z, G in E0 |].
     destruct (Req_dec t 1) as [-> |]; [apply Z1 in Z; apply At1 in G; now rewrite Z, G in E1 |]. lra. }
   clear At0 At1 Z0 Z1 E0 E1 Y0 Y1 O C.
   assert (Ny : y <> []) by now destruct y.
   pose proof (fun t => inner_signs y t Ny) as Root. pose proof (without_end_roots_trimmed y) as Tr.
   pose proof (without_end_roots_start y) as Start. pose proof (without_end_roots_empty y) as Empty.
   destruct (without_end_roots y) as [| a [| c l]].
-  - split; [easy |]. intros t T R. right. split; auto. intros u. specialize (Empty eq_refl). unfold
-    at_time.
+  - split; [easy |]. intros t T R. right. split; auto. intros u. specialize (Empty eq_refl).
+    unfold at_time.
     clear - Empty. induction Empty as [| a l <- _ IH]; [easy |]. cbn [map form]. rewrite IH. simpl.
       ring.
   - split; [easy |]. intros t T R. pose proof (proj1 (proj1 (Root t (Inside t T R))) (proj1 R)) as Z.

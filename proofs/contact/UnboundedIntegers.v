@@ -64,9 +64,8 @@ Qed.
 Lemma to_integer_right d unit : mantissa d = 0%Z \/ (unit <= exponent d)%Z ->
   IZR (to_integer d unit) = powerRZ 2 (- unit) * double d.
 Proof.
-  unfold to_integer, double. destruct (Z.eqb_spec (mantissa d) 0) as [-> | N]; [intros; ring |]. intros
-    [| H]; [easy |].
-  rewrite Z.shiftl_mul_pow2, mult_IZR by lia.
+  unfold to_integer, double. destruct (Z.eqb_spec (mantissa d) 0) as [-> | N]; [intros; ring |].
+  intros [| H]; [easy |]. rewrite Z.shiftl_mul_pow2, mult_IZR by lia.
   replace (IZR (2 ^ (exponent d - unit))) with (powerRZ 2 (exponent d - unit)).
   - replace (exponent d - unit)%Z with (- unit + exponent d)%Z by ring. rewrite powerRZ_add by lra.
     ring.
@@ -80,8 +79,8 @@ Proof.
   destruct (lowest_right dx query m I), (lowest_right dy query m I), (lowest_right dz query m I).
   unfold in_integers, exact_motion, exact_position, to_integers, stretched_motion, stretched,
     given_motion, given_point.
-  cbn [t0 t1 px py pz start finish x y z unit_of]. f_equal; apply same_point; cbn [x y z]; now apply
-    to_integer_right.
+  cbn [t0 t1 px py pz start finish x y z unit_of].
+  f_equal; apply same_point; cbn [x y z]; now apply to_integer_right.
 Qed.
 
 Lemma query_in_integers q0 q1 q2 q3 : let q := [q0; q1; q2; q3] in let k := unit_of q in units k /\
@@ -104,8 +103,8 @@ Qed.
 Lemma poly_without_last l x : poly (l ++ [0%Z]) x = poly l x.
 Proof. unfold poly. induction l as [| a l IH]; simpl; [ring | rewrite IH; ring]. Qed.
 Lemma poly_trimmed l x : poly (rev (without_zeros l)) x = poly (rev l) x.
-Proof. induction l as [| a l IH]; [easy |]. destruct a; [| easy | easy]. simpl. now rewrite IH,
-  poly_without_last. Qed.
+Proof. induction l as [| a l IH]; [easy |]. destruct a; [| easy | easy]. simpl.
+now rewrite IH, poly_without_last. Qed.
 Lemma without_zeros_head p :
   without_zeros p = [] /\ Forall (eq 0%Z) p \/ hd 0%Z (without_zeros p) <> 0%Z.
 Proof.
@@ -132,8 +131,8 @@ Proof.
   unfold without_end_roots. intros E.
   apply (f_equal (@rev Z)) in E. rewrite rev_involutive in E. simpl in E.
   destruct (without_zeros_head (rev (without_zeros p))) as [(_ & F) | N]; [| now rewrite E in N].
-  destruct (without_zeros_head p) as [(_ & G) | N]; auto. destruct (without_zeros p) as [| a l]; [easy
-    |].
+  destruct (without_zeros_head p) as [(_ & G) | N]; auto.
+  destruct (without_zeros p) as [| a l]; [easy |].
   simpl in *. apply Forall_app in F. destruct F as (_ & F). inversion_clear F. now subst.
 Qed.
 
@@ -260,8 +259,8 @@ Qed.
 Lemma inner_all_vanish fs t : factors_meet (promises finder) [] fs -> Forall (fun f => length f = 3%nat) fs ->
   0 < t < 1 -> Forall (fun f => form_at f t = 0) fs <-> poly (on_line fs) (t / (1 - t)) = 0.
 Proof.
-  intros M F T. rewrite (proj2 (proj2 (on_line_right fs M))). rewrite !Forall_forall. rewrite Forall_forall
-    in F.
+  intros M F T. rewrite (proj2 (proj2 (on_line_right fs M))). rewrite !Forall_forall.
+  rewrite Forall_forall in F.
   split; intros A f I; specialize (A f I); specialize (F f I);
     (apply (proj1 (inner_signs f t ltac:(now destruct f) T)); exact A).
 Qed.
@@ -270,11 +269,11 @@ Lemma touches_right fs b : touches_meets (promises finder) fs b -> Forall (fun f
   length b = 3%nat -> touches fs b = true <-> exists t, 0 <= t <= 1 /\ meets fs b t.
 Proof.
   intros (Factors & Roots & Signs) F B. unfold touches. destruct (existsb (@certainly_rootless integers) fs) eqn:Rootless.
-  { split; [easy |]. intros (t & T & V & _). apply existsb_exists in Rootless. destruct Rootless as (f &
-    I & R).
+  { split; [easy |]. intros (t & T & V & _). apply existsb_exists in Rootless.
+    destruct Rootless as (f & I & R).
     rewrite Forall_forall in V. specialize (V f I). now apply (@rootless_hull integers f t R T) in V. }
-  clear Rootless. pose proof (at_an_end fs b 0 0 F B ltac:(auto)) as At0. pose proof (at_an_end fs b 2 1
-    F B ltac:(auto)) as At1.
+  clear Rootless. pose proof (at_an_end fs b 0 0 F B ltac:(auto)) as At0.
+  pose proof (at_an_end fs b 2 1 F B ltac:(auto)) as At1.
   destruct (on_line_at fs 0 && (b#0 <=? 0)%Z).
   { split; auto. intros _. exists 0. split; [lra | now apply At0]. }
   destruct (on_line_at fs 2 && (b#2 <=? 0)%Z).
@@ -285,14 +284,14 @@ Proof.
     destruct (Req_dec t 1) as [-> | N1]; [now apply At1 in M |]. lra. }
   rewrite Inside. clear Inside.
   assert (Nb : b <> []) by now destruct b.
-  destruct (on_line_right fs Factors) as (Tr & Empty & At). pose proof (fun t => inner_all_vanish fs t Factors F) as
-    Vanish.
+  destruct (on_line_right fs Factors) as (Tr & Empty & At).
+  pose proof (fun t => inner_all_vanish fs t Factors F) as Vanish.
   destruct (on_line fs) as [| a [| c l]] eqn:E.
   - (* on the line throughout *)
     assert (Z : Forall (fun f => forall i, f#i = 0%Z) fs).
     { eapply Forall_impl; [| apply Empty; auto]. intros f H i. apply without_end_roots_empty in H.
-      rewrite Forall_forall in H. destruct (nth_in_or_default i f 0%Z) as [I | I]; auto. now rewrite <-
-        (H _ I). }
+      rewrite Forall_forall in H. destruct (nth_in_or_default i f 0%Z) as [I | I]; auto.
+      now rewrite <- (H _ I). }
     assert (Always : forall t, 0 <= t <= 1 -> Forall (fun f => form_at f t = 0) fs).
     { intros t _. rewrite Forall_forall in *. intros f I. specialize (Z f I). specialize (F f I).
       destruct (length_3 f F) as (f0 & f1 & f2 & ->). unfold at_time. cbn [map form].
@@ -316,8 +315,8 @@ Proof.
     assert (V : forall t, 0 < t < 1 -> VertexEdge.at_ratio
       (VertexEdge.Quadratic (IZR (b#0)) (IZR (b#1)) (IZR (b#2))) (t / (1 - t)) <= 0 <-> form_at b t <=
         0).
-    { intros t T. destruct (length_3 b B) as (b0 & b1 & b2 & ->). unfold at_time. cbn [map nth]. rewrite
-      power_basis by lra.
+    { intros t T. destruct (length_3 b B) as (b0 & b1 & b2 & ->). unfold at_time. cbn [map nth].
+      rewrite power_basis by lra.
       unfold VertexEdge.at_ratio. simpl VertexEdge.c0. simpl VertexEdge.c1. simpl VertexEdge.c2.
       set (r := t / (1 - t)). simpl length. assert (0 < (1 - t) ^ 2) by (apply pow_lt; lra).
       cbn [exact integers power_form]. split; intros; nra. }
@@ -334,8 +333,8 @@ Proof.
     assert (Two : (2 <= length (a :: c :: l))%nat) by (simpl; lia).
     remember (a :: c :: l) as p eqn:Ep. clear Ep.
     rewrite existsb_exists. split.
-    + intros (k & I & S). destruct (proj1 (Roots Tr Two Start (where_is finder k))) as (X & Z); [now
-      exists k |].
+    + intros (k & I & S).
+      destruct (proj1 (Roots Tr Two Start (where_is finder k))) as (X & Z); [now exists k |].
       destruct (proj2 (VertexEdge.by_ratio (fun x => x = where_is finder k))) as (t & T & W); [now
         exists (where_is finder k) |].
       exists t. split; auto. split; [apply Vanish; auto; now rewrite W |].
@@ -369,8 +368,6 @@ Theorem integer_contact_right v e0 e1 : contact_meets (promises finder) v e0 e1 
   vertex_edge_collides (exact_motion v) (exact_motion e0) (exact_motion e1).
 Proof.
   intros Asked. unfold contact. assert (D : forall q p : @moving_point integers, degree (difference q p) 1) by easy.
-  destruct (cross_at (difference v e0) (difference e1 e0) 1 1 0 (D _ _) (D _ _)) as (_ & L & M & N).
-  destruct (dot_at (difference v e0) (difference v e1) 1 1 0 (D _ _) (D _ _)) as (_ & B).
   rewrite touches_right by (exact Asked || (repeat constructor; auto) || exact B).
   assert (E : forall t, meets [vx (cross_form (difference v e0) (difference e1 e0)); vy (cross_form
     (difference v e0)
@@ -410,13 +407,13 @@ Lemma edge_contact_right query (v e0 e1 : given) : edge_contact_meets (promises 
   edge_contact query v e0 e1 = true <->
   vertex_edge_collides (given_motion v) (given_motion e0) (given_motion e1).
 Proof.
-  intros Asked V E0 E1. destruct (to_integers_right query v V) as (K & Vi). destruct (to_integers_right query
-    e0 E0) as (_ & E0i).
+  intros Asked V E0 E1. destruct (to_integers_right query v V) as (K & Vi).
+  destruct (to_integers_right query e0 E0) as (_ & E0i).
   destruct (to_integers_right query e1 E1) as (_ & E1i). unfold edge_contact, in_integers in *.
   rewrite andb_true_iff, negb_true_iff, (integer_contact_right _ _ _ Asked), Vi, E0i, E1i, (vertex_edge_units (unit_of
     query)) by exact K.
-  split; [tauto |]. intros H. split; auto. destruct (separated _ _ _) eqn:P; auto. now apply separated_right
-    in P.
+  split; [tauto |]. intros H. split; auto. destruct (separated _ _ _) eqn:P; auto.
+  now apply separated_right in P.
 Qed.
 Theorem face_border_right (v f0 f1 f2 : given) : face_border_meets (promises finder) v f0 f1 f2 ->
   face_border v f0 f1 f2 = true <->

@@ -521,8 +521,8 @@ Proof.
   assert (Apart : 0 < Rabs L1 -> v < u).
   { destruct E as (-> & ->). clear - O. intros. assert (0 < (q - p) * Rabs L1) by (apply Rmult_lt_0_compat; lra). lra. }
   assert (Single : p < 0 -> 0 < Rabs L0 -> 0 < u).
-  { destruct E as (-> & _). clear. intros. assert (0 <= - p * Rabs L1)
-      by (apply Rmult_le_pos; [lra | apply Rabs_pos]). lra. }
+  { destruct E as (-> & _). clear. intros.
+    assert (0 <= - p * Rabs L1) by (apply Rmult_le_pos; [lra | apply Rabs_pos]). lra. }
   assert (Falling : L0 < 0 -> 0 < L1 -> u = - (L0 + L1 * p) /\ v = - (L0 + L1 * q) /\ 0 < Rabs L0 /\ 0 < Rabs L1).
   { destruct E as (-> & ->). clear. intros. rewrite (Rabs_left L0), (Rabs_pos_eq L1) by lra. lra. }
   assert (Rising : 0 < L0 -> L1 < 0 -> u = L0 + L1 * p /\ v = L0 + L1 * q /\ 0 < Rabs L0 /\ 0 < Rabs L1).

@@ -351,7 +351,6 @@ Proof.
   assert (B : flc (slack * E) <= bpow radix2 (n + 1)).
   { apply flc_upper; [apply number_bpow; lia |]. rewrite bpow_plus. simpl (bpow radix2 1). nra. }
   assert (Pos : bpow radix2 (- 1022) <= eps) by (apply bpow_le; lia).
-  assert (T : bpow radix2 (- 1022) <= 1) by (change 1 with (bpow radix2 0); apply bpow_le; lia).
   split.
   - destruct Z as [-> | Z].
     + replace (1.009 * (0 * eps)) with 0 by ring.
@@ -433,7 +432,6 @@ Proof.
   replace (Un * (eta * W ^ (k - 1))) with (eta * g) by (unfold g; ring).
   assert (0 <= x * eta) by nra.
   assert (YY : 0.999989 * (eta * g) - eta / 2 <= flc (x * eta)) by nra.
-  assert (0 <= eta * g) by (unfold g; repeat apply Rmult_le_pos; try lra; apply pow_le; lra).
   assert (0.99999 * (0.999989 * (eta * g) - eta / 2 + tiny) <= y) by nra.
   nra.
 Qed.
@@ -454,7 +452,6 @@ Proof.
   intros P HW T T0 PE.
   assert (R0 : 0 <= relative E) by (assert (0 <= E * eps) by nra; lra).
   assert (NA : number (absolute Un k)) by (apply rnd_number; auto with typeclass_instances).
-  assert (NR : number (relative E)) by (apply rnd_number; auto with typeclass_instances).
   set (rel := relative E) in *. set (ab := absolute Un k) in *.
   set (h := W ^ (k - 1)) in *.
   assert (Ph : 1 <= h) by (apply pow_R1_Rle; auto).
@@ -496,7 +493,6 @@ Proof.
   assert (A4 : 1.008 * x <= V * rel * (1 - 4 * eps)) by nra.
   assert (A5 : 1.0079 * x - th / 999 - eta <= a) by nra.
   set (y := Un * th) in *. assert (Py : th <= y) by (unfold y; nra).
-  assert (A6 : 1.009 * (y + tiny) - eta <= ab) by lra.
   assert (A7 : 1.0078 * x + 1.007 * (y + tiny) <= a + ab) by lra.
   assert (A8 : (a + ab) * 0.99999 <= b * (1 - eps)).
   { apply Rle_trans with ((a + ab) * (1 - eps) * (1 - eps)).

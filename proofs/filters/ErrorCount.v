@@ -240,7 +240,6 @@ Proof.
     { unfold shrunk. generalize (u_positive p). intros.
       assert (B : forall n, 1 - INR n * u <= (1 - u) ^ n).
       { induction n as [| n IH]; [simpl; lra |]. rewrite <- tech_pow_Rmult, S_INR.
-        assert (0 <= (1 - u) ^ n) by (apply pow_le; lra).
         generalize (pos_INR n). nra. }
       generalize (B 7%nat). simpl INR. lra. }
     assert (F : 1 + 2 * u <= (1 - 7 * u) * (1 + 16 * (2 * u))) by nra.
@@ -632,8 +631,6 @@ Proof.
     - apply Rmult_le_pos; lra.
     - apply Rmult_le_compat_l; lra. }
   set (p1 := ua * (eta * T)) in *. set (p2 := ub * (eta * T')) in *.
-  assert (P1 : 0 <= p1) by (unfold p1; repeat apply Rmult_le_pos; lra).
-  assert (P2 : 0 <= p2) by (unfold p2; repeat apply Rmult_le_pos; lra).
   assert (UV : 0 <= U * V) by (apply Rmult_le_pos; lra).
   assert (Hmm : forall c d, 0 <= c -> 0 <= d -> 0 <= c * d) by (intros; apply Rmult_le_pos; lra).
   generalize (Rabs_pos v) (Rabs_pos w) (Rabs_pos (v - x)) (Rabs_pos (w - y)); intros.
@@ -674,8 +671,6 @@ Proof.
   generalize (product_rounding (v * w)). intros R.
   assert (R' : eps * Rabs (v * w) <= eps * (ma * mb * (U * V) + under + / 16 * h))
     by (apply Rmult_le_compat_l; lra).
-  assert (Und : 0 <= under).
-  { unfold under. apply Hmm; [| lra]. generalize (Hmm ma ub) (Hmm ua mb). lra. }
   assert (Crs : 0 <= cross).
   { unfold cross. apply Hmm; [| lra]. apply Hmm; [| lra]. generalize (Hmm ea ub) (Hmm ua eb). lra. }
   assert (M' : (1 + eps) * (ma * mb * (U * V)) <= magnitude (count_product a b) * (U * V)).

@@ -721,9 +721,7 @@ Proof.
   intros Nt T Nr Ns. pose proof (sum_after t r s Nt T) as E.
   assert (I : Rmin r s <= (1 - t) * r + t * s <= Rmax r s).
   { pose proof (Rmin_l r s). pose proof (Rmin_r r s). pose proof (Rmax_l r s). pose proof (Rmax_r r s).
-    split; [replace (Rmin r s) with ((1 - t) * Rmin r s + t * Rmin r s) by ring |
-            replace (Rmax r s) with ((1 - t) * Rmax r s + t * Rmax r s) by ring];
-      apply Rplus_le_compat; apply Rmult_le_compat_l; lra. }
+    nra. }
   unfold after. set (c := fl (from_start t r + from_finish t s)) in *.
   assert (Nc : number c) by exact (rnd_number _ _ nearest _). set (v := (1 - t) * r + t * s) in *. clearbody c v.
   apply Rabs_le_inv in E. split; [| split; [| apply Rabs_le]]; revert I; unfold Rmax, Rmin;

@@ -298,7 +298,6 @@ Proof.
     apply Rle_trans with (bpow radix2 20 * eta).
     - replace (50 * eta * 1000) with (50000 * eta) by ring. apply Rmult_le_compat_r; [lra | simpl; lra].
     - unfold tiny, Format.eta. rewrite <- bpow_plus. apply bpow_le. lia. }
-  assert (T : 0 < tiny) by apply bpow_gt_0.
   assert (PH : 0 <= halvings n) by (assert (0 <= INR (n * max_depth) * eps) by (apply Rmult_le_pos; lra); lra).
   assert (PD : 0 <= largest * halvings n) by now apply Rmult_le_pos.
   assert (PB : 0 <= bound) by (apply Rmult_le_reg_r with (1 - eps); lra).
@@ -590,8 +589,8 @@ Notation q := {| b_ := moving_difference m b1 b0; c_ := moving_difference m c1 c
 Lemma sizes_cover : SeparatingAxis.sized m d.
 Proof.
   unfold SeparatingAxis.sized, SeparatingAxis.within, sizes. cbn [Contact.x Contact.y Contact.z].
-  pose proof (largest_covers Contact.x d) as (X1 & X2 & X3). pose proof (largest_covers Contact.y d) as (Y1
-    & Y2 & Y3).
+  pose proof (largest_covers Contact.x d) as (X1 & X2 & X3).
+  pose proof (largest_covers Contact.y d) as (Y1 & Y2 & Y3).
   pose proof (largest_covers Contact.z d) as (Z1 & Z2 & Z3). auto 10.
 Qed.
 Lemma sizes_number : (number (Contact.x m) /\ number (Contact.y m) /\ number (Contact.z m)) /\

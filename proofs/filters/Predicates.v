@@ -206,8 +206,6 @@ Proof.
   intros P E A B C D F N L.
   assert (M0 : 0 <= M).
   { apply Rle_trans with (2 := L a 0%nat (or_introl eq_refl)). apply Rabs_pos. }
-  assert (W : (16777216 <= 2 ^ p)%Z).
-  { change 16777216%Z with (2 ^ 24)%Z. apply Z.pow_le_mono_r; lia. }
   replace (det4 (lifted3 a e) (lifted3 b e) (lifted3 c e) (lifted3 d e))
     with (exact (lifted_volume a b c d e unweighted)) by (unfold lifted3, det4, det3, det2; simpl; ring).
   apply semi_static_sign_certain; auto; try lia.

@@ -135,8 +135,8 @@ Definition inside_box (p : point) : Prop :=
   x low <= x p <= x high /\ y low <= y p <= y high /\ z low <= z p <= z high.
 
 Lemma double_below r e : (-1074 <= e)%Z -> Rabs r <= bpow radix2 e -> Rabs (double r) <= bpow radix2 e.
-Proof. intros L H. apply rnd_abs_below; auto with typeclass_instances. apply number_power;
-  [exact eq_refl | lia]. Qed.
+Proof. intros L H. apply rnd_abs_below; auto with typeclass_instances.
+apply number_power; [exact eq_refl | lia]. Qed.
 Lemma half_below r : Rabs r <= bpow radix2 1024 -> Rabs (double (r / 2)) <= bpow radix2 1023.
 Proof.
   intros H. apply double_below; [lia |]. unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ 2)) by lra.
@@ -252,8 +252,8 @@ Proof.
   { pose proof (Rabs_triang (g - d * s) (d * s)) as T. replace (g - d * s + d * s) with g in T by ring. lra. }
   pose proof (single_near g) as D4.
   assert (D5 : Rabs (single g - g) <= 1.001 * eps).
-  { apply Rle_trans with (1 := D4). assert (eps * Rabs g <= eps * 1.0001) by (apply Rmult_le_compat_l;
-    lra). lra. }
+  { apply Rle_trans with (1 := D4).
+    assert (eps * Rabs g <= eps * 1.0001) by (apply Rmult_le_compat_l; lra). lra. }
   apply Rabs_le_inv in D1, D3, D5, Z. split; apply Rabs_le; lra.
 Qed.
 
@@ -331,8 +331,8 @@ Definition in_frame (q : moving) : Prop := numbers q /\ forall e, inside_box (at
 
 Lemma gap_of t r s : float t -> t < single (r - s) -> t < r - s.
 Proof.
-  intros N L. apply Rnot_le_lt. intros C. apply (Rlt_not_le _ _ L). apply rnd_below;
-    auto with typeclass_instances.
+  intros N L. apply Rnot_le_lt. intros C. apply (Rlt_not_le _ _ L).
+  apply rnd_below; auto with typeclass_instances.
 Qed.
 Lemma largest_of t gap axes : -1 <= t -> t < largest_gap gap axes -> exists a, In a axes /\
   t < separated_by (gap a).
@@ -507,8 +507,8 @@ Proof.
   destruct (Req_dec (rnd 24 (-149) d r) 0) as [Z | Z]; [rewrite Z, Rmult_0_l; apply number_0 |].
   assert (M : (cexp radix2 (FLT_exp (-149) 24) r <= cexp radix2 (FLT_exp (-149) 24) (rnd 24 (-149) d r))%Z).
   { apply monotone_exp; [auto with typeclass_instances |]. apply mag_round_ge; auto with typeclass_instances. }
-  rewrite N. unfold F2R. simpl. rewrite Rmult_assoc, <- bpow_plus. apply number_integer;
-    [exact eq_refl | lia |].
+  rewrite N. unfold F2R. simpl. rewrite Rmult_assoc, <- bpow_plus.
+  apply number_integer; [exact eq_refl | lia |].
   assert (L : (Z.abs (Ztrunc (scaled_mantissa radix2 (FLT_exp (-149) 24) (rnd 24 (-149) d r))) < 2 ^ 24)%Z).
   { apply lt_IZR. rewrite abs_IZR, <- scaled_mantissa_generic by exact N.
     change (IZR (2 ^ 24)) with (bpow radix2 24).

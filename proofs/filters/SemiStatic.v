@@ -271,9 +271,7 @@ Proof.
   { split; [apply pow_le; lra |]. rewrite <- (pow1 k). apply pow_incr. lra. }
   apply Rle_trans with ((y + eta) * (y ^ k + 2 * INR k * eta)).
   - apply Rmult_le_compat_l; lra.
-  - assert (eta * y ^ k <= eta * 1) by (apply Rmult_le_compat_l; lra).
-    assert (y * (INR k * eta) <= 1 * (INR k * eta)) by (apply Rmult_le_compat_r; lra).
-    assert (eta * (2 * INR k * eta) <= eta * 1) by (apply Rmult_le_compat_l; lra). lra.
+  - nra.
 Qed.
 Lemma number_1 : number 1.
 Proof. change 1 with (bpow radix2 0). apply number_power; auto. lia. Qed.
@@ -382,12 +380,7 @@ Lemma slack_enough t : 0 <= t -> 64 * (t + 3 * u) <= 1 ->
 Proof.
   intros T H. generalize (u_positive p). intros U.
   assert (P2 : (1 + u) ^ 2 <= 1 + 2.01 * u) by (simpl; nra).
-  assert (P6 : (1 + u) ^ 6 <= 1 + 6.2 * u).
-  { replace ((1 + u) ^ 6) with ((1 + u) ^ 2 * (1 + u) ^ 2 * (1 + u) ^ 2) by ring.
-    assert (0 <= (1 + u) ^ 2) by (apply pow_le; lra).
-    apply Rle_trans with ((1 + 2.01 * u) * (1 + 2.01 * u) * (1 + 2.01 * u)).
-    - apply Rmult_le_compat; auto; [apply Rmult_le_pos; auto |]. apply Rmult_le_compat; auto.
-    - nra. }
+  assert (P6 : (1 + u) ^ 6 <= 1 + 6.2 * u) by nra.
   set (y := t + u) in *. assert (Y : 0 <= y <= / 64) by (unfold y; lra).
   assert (A : (1 + t) * (1 + y + y * y) <= 1 + 2.05 * t + 1.05 * u).
   { assert (y * y <= / 64 * y) by (apply Rmult_le_compat_r; lra).
@@ -563,7 +556,6 @@ Proof.
     apply Rle_trans with (1 * 1); [lra | apply Rmult_le_compat; lra]. }
   assert (S3 : exact_size e <= pw * (1 + u / 16) * g).
   { apply Rle_trans with (1 := S1). unfold g.
-    assert (0 <= (IZR az - / 4) * tau) by (apply Rmult_le_pos; lra).
     assert (1 * ((IZR az - / 4) * tau) <= pw * (1 + u / 16) * ((IZR az - / 4) * tau))
       by (apply Rmult_le_compat_r; lra). lra. }
   apply Rmult_le_reg_l with ((1 + u) ^ 6); [lra |].
@@ -609,15 +601,14 @@ Proof.
     cbn [constants_not_zero mass allowances]; try (intros _; lra).
   - intros C. apply negb_true_iff, Z.eqb_neq in C. split; [| lra]. rewrite (fl_abs p emin), <- abs_IZR.
     apply (fl_above 1); [lia |]. apply IZR_le. lia.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
-    (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B).
+    destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
     split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
-    (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B).
+    destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
     split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
-    (number_mass y).
-    split.
+  - intros H. apply andb_prop in H. destruct H as (A & B).
+    destruct (IHx A), (IHy B), (number_mass x), (number_mass y). split.
     + apply Rle_trans with (mass x); auto. apply part_of_product; auto. lra.
     + apply Z0. assert (0 <= fl (2 * fl (fl (mass x * allowances y) + fl (mass y * allowances x)))); [| lra].
       apply Z0, Rmult_le_pos; [lra |]. apply Z0, Rplus_le_le_0_compat; apply Z0, Rmult_le_pos; lra.
@@ -653,8 +644,8 @@ Proof.
     assert (X1 : mass x <= fl (mass x * mass y)) by (apply part_of_product; auto; lra).
     assert (X2 : mass y <= fl (mass x * mass y)) by (rewrite Rmult_comm; apply part_of_product; auto; lra).
     set (a := fl (mass x * allowances y)) in *. set (b := fl (mass y * allowances x)) in *.
-    assert (Pa : 0 <= a) by (apply Z0, Rmult_le_pos; lra). assert (Pb : 0 <= b) by (apply Z0, Rmult_le_pos;
-      lra).
+    assert (Pa : 0 <= a) by (apply Z0, Rmult_le_pos; lra).
+    assert (Pb : 0 <= b) by (apply Z0, Rmult_le_pos; lra).
     assert (X3 : allowances y <= a) by (unfold a; rewrite Rmult_comm; apply part_of_product; auto).
     assert (X4 : allowances x <= b) by (unfold b; rewrite Rmult_comm; apply part_of_product; auto).
     assert (X5 : a <= fl (a + b)) by (apply part_of_sum; auto; apply N).
@@ -825,8 +816,8 @@ Proof.
     assert (Md1 : 1 <= M ^ d) by (apply pow_R1_Rle; lra).
     assert (De : 2 * INR d * eta <= / 64).
     { assert (Dp : INR d * u <= / 64).
-      { apply le_INR in Dr. rewrite S_INR in Dr. apply Rle_trans with ((INR k + 1) * u);
-        [apply Rmult_le_compat_r; lra | lra]. }
+      { apply le_INR in Dr. rewrite S_INR in Dr.
+        apply Rle_trans with ((INR k + 1) * u); [apply Rmult_le_compat_r; lra | lra]. }
       assert (Eu : eta <= u / 2).
       { unfold Format.eta, Format.u, Rdiv. change (/ 2) with (bpow radix2 (-1)). rewrite <- bpow_plus.
         apply bpow_le. lia. }

@@ -222,7 +222,6 @@ Lemma after_margin r s r' s' A B : 0 <= A -> 0 <= B -> A + B <= 8.1 * eps * M ->
 Proof.
   intros PA PB S N L Nr Ns. destruct allowed_bounds as (E0 & E1 & E2).
   generalize eps_tiny (eta_positive emin). intros P Q.
-  assert (EM : 0 <= eps * M) by (apply Rmult_le_pos; lra).
   assert (Final : forall t, near (A + B + 1.02 * eps * M) t -> t <= allowed).
   { intros t [-> | H]; [easy |]. apply Rabs_le_inv in H. lra. }
   assert (D : near (A + B) ((r' - r) + - (s' - s))) by (apply near_sum; auto; now apply near_opp).
@@ -385,7 +384,6 @@ Lemma face_axis a : measures m a -> separated_along (face_sides d a) = true ->
   ~ vertex_face_collides v f0 f1 f2.
 Proof.
   intros (M & M0 & Ms & H) T. generalize eps_tiny. intros P. destruct d_sized as (Wb & Wc & Wp).
-  assert (EM : 0 <= eps * M) by (apply Rmult_le_pos; lra).
   pose (D := dot (along_axis a)).
   assert (Zero : number 0 /\ Rabs 0 <= 1.01 * M /\ forall r, near (2.02 * eps * M) (0 - (r - r))).
   { split; [apply number_0 |]. split; [rewrite Rabs_R0; lra |]. intros r. left. ring. }
@@ -445,7 +443,6 @@ Lemma edges_axis a : measures m a -> separated_along (edge_sides d a) = true ->
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
   intros (M & M0 & Ms & H) T. generalize eps_tiny. intros P. destruct d_sized as (Wb & Wc & Wp).
-  assert (EM : 0 <= eps * M <= / 1000000 * M) by (split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra).
   pose (D := dot (along_axis a)).
   assert (Zero : number 0 /\ Rabs 0 <= 1.01 * M /\ forall r, near (2.02 * eps * M) (0 - (r - r))).
   { split; [apply number_0 |]. split; [rewrite Rabs_R0; lra |]. intros r. left. ring. }

@@ -280,25 +280,12 @@ Proof.
   assert (W2 : Rabs (a * b - x * y) <= Rabs (a - x) * Rabs y + Rabs a * Rabs (b - y)).
   { replace (a * b - x * y) with ((a - x) * y + a * (b - y)) by ring.
     apply Rle_trans with (1 := Rabs_triang _ _). rewrite !Rabs_mult. lra. }
-  assert (ST : 0 <= S * T) by (apply Rmult_le_pos; auto).
   assert (M : forall c d C D, 0 <= c -> 0 <= d -> c <= C -> d <= D -> c * d <= C * D).
   { intros. apply Rmult_le_compat; auto. }
-  destruct (Rle_or_lt (Rabs x) S) as [Cx | Cx].
-  { apply Rle_trans with (1 := W1).
-    generalize (M (Rabs (a - x)) (Rabs b) ((A - 1) * S) (B * T) ltac:(lra) ltac:(lra) Hax Hb)
-      (M (Rabs x) (Rabs (b - y)) S ((B - 1) * T) ltac:(lra) ltac:(lra) Cx Hby). lra. }
-  destruct (Rle_or_lt (Rabs b) T) as [Cb | Cb].
-  { apply Rle_trans with (1 := W1).
-    generalize (M (Rabs (a - x)) (Rabs b) ((A - 1) * S) T ltac:(lra) ltac:(lra) Hax Cb)
-      (M (Rabs x) (Rabs (b - y)) (A * S) ((B - 1) * T) ltac:(lra) ltac:(lra) Hx Hby). lra. }
-  destruct (Rle_or_lt (Rabs y) T) as [Cy | Cy].
-  { apply Rle_trans with (1 := W2).
-    generalize (M (Rabs (a - x)) (Rabs y) ((A - 1) * S) T ltac:(lra) ltac:(lra) Hax Cy)
-      (M (Rabs a) (Rabs (b - y)) (A * S) ((B - 1) * T) ltac:(lra) ltac:(lra) Ha Hby). lra. }
-  destruct (Rle_or_lt (Rabs a) S) as [Ca | Ca].
-  { apply Rle_trans with (1 := W2).
-    generalize (M (Rabs (a - x)) (Rabs y) ((A - 1) * S) (B * T) ltac:(lra) ltac:(lra) Hax Hy)
-      (M (Rabs a) (Rabs (b - y)) S ((B - 1) * T) ltac:(lra) ltac:(lra) Ca Hby). lra. }
+  destruct (Rle_or_lt (Rabs x) S) as [Cx | Cx]; [nra |].
+  destruct (Rle_or_lt (Rabs b) T) as [Cb | Cb]; [nra |].
+  destruct (Rle_or_lt (Rabs y) T) as [Cy | Cy]; [nra |].
+  destruct (Rle_or_lt (Rabs a) S) as [Ca | Ca]; [nra |].
   (* all are larger than their sizes *)
   assert (W3 : Rabs (a * b - x * y) <= Rabs a * Rabs b + Rabs x * Rabs y).
   { rewrite <- !Rabs_mult. unfold Rminus.
@@ -639,9 +626,7 @@ Proof.
   assert (YY : y * y <= y / 32) by nra.
   apply Rle_trans with ((t + t * t) * (1 + y + y / 32)).
   - apply Rmult_le_compat; lra.
-  - replace (t + t * t) with (t * (1 + t)) by ring. rewrite Rmult_assoc.
-    apply Rmult_le_compat_l; auto.
-    assert (t * (y + y / 32) <= (y + y / 32) / 64) by nra. lra.
+  - nra.
 Qed.
 
 Lemma filter_constant_lower n : (1 <= n)%nat -> 64 * INR (n + 3) * u <= 1 ->
@@ -725,10 +710,7 @@ Proof.
     set (Q := power (2 * m + 3)) in *. set (D := power m - 1) in *.
     apply Rmult_le_reg_l with ((1 + u) * ((1 + u) * (1 + u))).
     { repeat apply Rmult_lt_0_compat; lra. }
-    apply Rle_trans with (INR m * u * (1 + INR (4 * m + 8) * u) * s).
-    { replace ((1 + u) * ((1 + u) * (1 + u)) * (D * (Q * s)))
-        with (D * (Q * ((1 + u) * ((1 + u) * ((1 + u) * 1)))) * s) by ring.
-      apply Rmult_le_compat_r; lra. }
+    apply Rle_trans with (INR m * u * (1 + INR (4 * m + 8) * u) * s); [nra |].
     apply Rle_trans with ((1 + u) * (1 + u) * C * s).
     { apply Rmult_le_compat_r; lra. }
     replace ((1 + u) * (1 + u) * C * s) with ((1 + u) * (1 + u) * (C * s)) by ring.

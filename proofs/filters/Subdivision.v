@@ -272,11 +272,11 @@ Proof.
     + destruct (No0 eq_refl (2 * t)) as (f & I & N); [lra | |].
       { rewrite (proj1 (halves_cubic Y (2 * t) LY)). now replace (2 * t / 2) with t by field. }
       apply in_map_iff in I. destruct I as (G & <- & I). exists G. split; auto.
-      rewrite (proj1 (halves_quartic G (2 * t) (LG G I))) in N. now replace (2 * t / 2) with t in N by
-        field.
+      rewrite (proj1 (halves_quartic G (2 * t) (LG G I))) in N.
+      now replace (2 * t / 2) with t in N by field.
     + destruct (No1 E1 (2 * t - 1)) as (f & I & N); [lra | |].
-      { rewrite (proj1 (proj2 (halves_cubic Y (2 * t - 1) LY))). now replace ((1 + (2 * t - 1)) / 2) with
-          t by field. }
+      { rewrite (proj1 (proj2 (halves_cubic Y (2 * t - 1) LY))).
+        now replace ((1 + (2 * t - 1)) / 2) with t by field. }
       apply in_map_iff in I. destruct I as (G & <- & I). exists G. split; auto.
       rewrite (proj1 (proj2 (halves_quartic G (2 * t - 1) (LG G I)))) in N.
       now replace ((1 + (2 * t - 1)) / 2) with t in N by field.

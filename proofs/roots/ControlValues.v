@@ -499,8 +499,8 @@ Proof.
   intros E. pose proof (Z.pow_pos_nonneg 2 excess ltac:(lia) ltac:(lia)) as P. set (u := (2 ^ excess)%Z) in *.
   rewrite Rmult_1_l, <- mult_IZR, <- minus_IZR, <- abs_IZR. apply IZR_le. unfold cut. fold u.
   pose proof (Z.div_mod (Z.abs c) u ltac:(lia)). pose proof (Z.mod_pos_bound (Z.abs c) u P).
-  set (q := (Z.abs c / u)%Z) in *. apply Z.abs_le. pose proof (Z.sgn_abs c). destruct (Z.sgn_spec c) as [(B & E') | [(B & E') | (B & E')]];
-    rewrite E' in *; nia.
+  set (q := (Z.abs c / u)%Z) in *. apply Z.abs_le. pose proof (Z.sgn_abs c).
+  destruct (Z.sgn_spec c) as [(B & E') | [(B & E') | (B & E')]]; rewrite E' in *; nia.
 Qed.
 
 (** x·2^shift, rounded towards zero (`shifted` of include/errbound/integers/dyadic.hpp). *)

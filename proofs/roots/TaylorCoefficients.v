@@ -371,7 +371,6 @@ Proof.
     - apply Rmult_le_compat_r; [apply bpow_ge_0 |]. now apply Rmult_le_compat_r; [apply bpow_ge_0 |]. }
   assert (P : 0 < IZR q).
   { assert (R : pow2 (1 - bits) <= / 2) by (change (/ 2) with (pow2 (- 1)); apply bpow_le; lia).
-    pose proof (bpow_gt_0 radix2 (1 - bits)) as R0.
     assert (0 < y) by (unfold y; apply Rmult_lt_0_compat; [apply Rmult_lt_0_compat; [easy | apply bpow_gt_0] | now apply Rinv_0_lt_compat]).
     assert (y * pow2 (1 - bits) <= y * / 2) by (apply Rmult_le_compat_l; lra). lra. }
   split; [now apply lt_IZR |].

@@ -477,8 +477,8 @@ Qed.
 Lemma zero_made : made 0 affine_exact 0 g.
 Proof.
   assert (E : forall e, holds e 0 affine_exact 0).
-  { intros e'. unfold affine_exact. repeat split; simpl; auto using number_0; try lra;
-      rewrite ?Rminus_0_r, Rabs_R0; lra. }
+  { intros e'. unfold affine_exact.
+    repeat split; simpl; auto using number_0; try lra; rewrite ?Rminus_0_r, Rabs_R0; lra. }
   destruct g_f as [-> | ->]; simpl; auto. split; auto. exists 0. rewrite Rabs_R0. split; auto. lra.
 Qed.
 

@@ -206,9 +206,7 @@ Proof.
 Qed.
 Theorem tight_keeps : keeps R rounded R (tight_operations R rounded) (fun x => x) known_within.
 Proof.
-  assert (P : (0 <= p)%Z) by lia.
   assert (N : forall x, number (fl x)) by (intros; now apply Format.rnd_number).
-  assert (Inflated : forall x, tight_inflated R rounded x = Tight.inflated p emin direction x) by reflexivity.
   assert (Rounding : forall v, tight_rounding R rounded v = Tight.rounding p emin direction v).
   { intros v. unfold tight_rounding. rewrite abs_reals. reflexivity. }
   split; cbn [tight_operations the_rule tight_rule rule_exact rule_subtract rule_add rule_multiply rule_scale rule_error

@@ -144,15 +144,10 @@ Let f := 1 + 22 * eps.
 Lemma all_roundings : (1 + eps) * ((1 + 32 * u) * (1 + u) ^ 6) <= f.
 Proof.
   unfold f. rewrite (eps_2u p). generalize u_256. generalize u. intros x [P L].
-  assert (S1 : (1 + x) ^ 6 <= 1 + 6 * x + 16 * (x * x)).
-  { replace ((1 + x) ^ 6) with (1 + 6 * x + 15 * (x * x) + (x * x) * (x * (20 + 15 * x + 6 * (x * x) + x * x * x))) by ring.
-    assert (0 <= x * x) by nra. assert (x * x <= 1) by nra. assert (x * x * x <= 1) by nra.
-    assert (x * (20 + 15 * x + 6 * (x * x) + x * x * x) <= 1) by nra. nra. }
+  assert (S1 : (1 + x) ^ 6 <= 1 + 6 * x + 16 * (x * x)) by nra.
   apply Rle_trans with ((1 + 2 * x) * ((1 + 32 * x) * (1 + 6 * x + 16 * (x * x)))).
   - apply Rmult_le_compat_l; [lra |]. apply Rmult_le_compat_l; lra.
-  - replace ((1 + 2 * x) * ((1 + 32 * x) * (1 + 6 * x + 16 * (x * x))))
-      with (1 + 40 * x + x * (x * (284 + x * (928 + x * 1024)))) by ring.
-    assert (x * (284 + x * (928 + x * 1024)) <= 4) by nra. nra.
+  - nra.
 Qed.
 Lemma f_1 : 1 <= f.
 Proof. unfold f. generalize (eps_positive p). lra. Qed.
@@ -279,8 +274,8 @@ Proof.
     assert (Given : sa + sb <= c * (G - 1) * B).
     { apply Rle_trans with (c * (G - 1) * (Ba + Bb)); [| apply Rmult_le_compat_l; [nra | exact S]].
       apply Rle_trans with (c * (power ka - 1) * Ba + c * (power kb - 1) * Bb); [lra |].
-      rewrite Rmult_plus_distr_l. apply Rplus_le_compat; apply Rmult_le_compat_r; try lra;
-        apply Rmult_le_compat_l; lra. }
+      rewrite Rmult_plus_distr_l.
+      apply Rplus_le_compat; apply Rmult_le_compat_r; try lra; apply Rmult_le_compat_l; lra. }
     set (h := (1 + 32 * u) * (1 + u) ^ 2).
     assert (Own := own_of_sum (fl (a + b)) B V L). fold h in Own.
     assert (Ph : 0 <= h) by (unfold h; apply Rmult_le_pos; [lra | apply pow_le; lra]).
@@ -342,8 +337,8 @@ Proof.
     generalize (power_1 (snd B)). intros G. repeat apply Rmult_le_pos; lra. }
   unfold Tight.tight_multiply. cbv zeta.
   destruct (Tight.is_zero a sa || Tight.is_zero b sb) eqn:TZ.
-  { apply N0. apply orb_prop in TZ. destruct TZ as [TZ | TZ]; apply Tight.is_zero_true in TZ;
-      destruct TZ as [-> _]; ring. }
+  { apply N0. apply orb_prop in TZ.
+    destruct TZ as [TZ | TZ]; apply Tight.is_zero_true in TZ; destruct TZ as [-> _]; ring. }
   clear N0. unfold Safe.safe_multiply in EB. destruct (Safe.is_zero a ka || Safe.is_zero b kb) eqn:SZ.
   { exfalso. assert (Q : forall x s X k, ((k < Safe.too_many)%Z -> s <= c * (power k - 1) * X /\ (k = 0%Z -> s = 0)) ->
       Tight.is_zero x s = false -> Safe.is_zero x k = false).

@@ -184,15 +184,10 @@ Proof.
       replace (E * q ^ (m + 5)) with (E * q ^ (m + 2) * q ^ 3)
         by (replace (m + 5)%nat with ((m + 2) + 3)%nat by lia; rewrite !pow_add; ring).
       lra.
-    - apply Rle_trans with (2 := L3).
-      replace (own r * q ^ 2 + inherited r * q ^ 3 + closed r * q ^ 3 + lost * q)
-        with (((own r + (inherited r + closed r) * q) * q + lost) * q) by ring.
-      apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat_r.
-      apply Rle_trans with (2 := L2). apply Rmult_le_compat_r; lra. }
+    - nra. }
   set (G := closed r + W + E + (lost - 2 * INR k * h)).
   assert (LF : G <= S * factor m /\ G <= S * factor m * q).
   { assert (Pays : forall n, (n <= m + 6)%nat -> 1 <= factor m * q ^ n) by (intros; now apply factor_pays_less).
-    assert (Times : forall c, 0 <= c -> (c * q ^ 0 = c)) by (intros; simpl; lra).
     assert (All : forall i, (i <= 1)%nat -> G <= S * (factor m * q ^ i)).
     { intros i I. apply Rle_trans with ((W * q ^ (m + 2) + E * q ^ (m + 5) + closed r * q ^ 3 +
                          (lost - 2 * INR k * h) * q) * (factor m * q ^ i)).
@@ -227,7 +222,6 @@ Proof.
   set (t := fl (Rabs b + sb)). set (P1 := fl (Rabs a * sb)). set (P2 := fl (sa * t)).
   set (K := Rabs a * sb). set (E := sa * (Rabs b + sb)).
   assert (PK : 0 <= K) by (apply Rmult_le_pos; lra).
-  assert (PE : 0 <= E) by (apply Rmult_le_pos; lra).
   assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra).
   assert (Pst : 0 <= sa * t) by (apply Rmult_le_pos; lra).
   assert (PP1 : 0 <= P1) by now apply rnd_nonnegative.

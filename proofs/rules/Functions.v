@@ -407,10 +407,7 @@ Proof.
   assert (S : (fl A + fl B) * q <= fl (fl A + fl B)) by (apply sum_relative; auto; apply rnd_number).
   assert (NS : 0 <= fl (fl A + fl B)) by (apply rnd_nonnegative; lra).
   apply Rle_trans with (2 := inflated_lower _ NS).
-  assert (L : (X * (q * q) * q + Y * (q * q) * q - 2 * h) * q <= fl (fl A + fl B)).
-  { apply Rle_trans with (2 := S). apply Rmult_le_compat_r; [lra |].
-    assert (X * (q * q) * q <= A * q) by (apply Rmult_le_compat_r; lra).
-    assert (Y * (q * q) * q <= B * q) by (apply Rmult_le_compat_r; lra). lra. }
+  assert (L : (X * (q * q) * q + Y * (q * q) * q - 2 * h) * q <= fl (fl A + fl B)) by nra.
   apply Rle_trans with ((X * (q * q) * q + Y * (q * q) * q - 2 * h) * q * (f * q) - h).
   - replace ((X * (q * q) * q + Y * (q * q) * q - 2 * h) * q * (f * q) - h) with
       ((X + Y) * (f * (q * q * q * q * q)) - 2 * h * (f * (q * q)) - h) by ring.
@@ -547,7 +544,6 @@ Proof.
     assert (E4 : R0 = R + eta).
     { apply sum_subnormal; auto using number_eta; try lra; [apply rnd_number |].
       change (R0 < smallest_normal). lra. }
-    assert (ES : R + eta + ends + times + 8 * eta <= fl (R0 + W)) by lra.
     match goal with |- _ <= ?s * f => change (R + h + (X1 + X2) + (X3 + X4) + h <= fl (R0 + W) * f) end.
     apply Rle_trans with (fl (R0 + W) * 1); [lra |]. apply Rmult_le_compat_l; lra.
 Qed.
@@ -590,8 +586,6 @@ Proof.
   { split; [replace (/ 4) with (/ 2 * / 2) by field | rewrite <- (Rmult_1_r 1)]; apply Rmult_le_compat; lra. }
   assert (B2 : 0 <= B * B) by (apply Rmult_le_pos; lra).
   assert (b2 : 0 <= b * b) by (apply Rmult_le_pos; lra).
-  assert (R2 : 0 <= r * r <= r * / 128).
-  { split; [apply Rmult_le_pos; lra | apply Rmult_le_compat_l; lra]. }
   assert (RH : 0 <= r * h <= / 128 * h).
   { split; [apply Rmult_le_pos; lra | apply Rmult_le_compat_r; lra]. }
   assert (bB : Rabs (b * b - B * B) <= 2 * h).
@@ -812,7 +806,6 @@ Proof.
     (Format.rnd_exact p emin direction _ N2).
   set (c := fl (3 * eps + 8 * eta)). set (P := fl (v * c)). set (I := fl (sx + sy)).
   set (J := fl (I + 2 * eta)).
-  assert (PE : 0 < eps) by apply eps_positive.
   assert (LC : (3 * eps + 8 * eta) * q <= c) by (apply sum_relative; auto using number_8_eta; lra).
   assert (PC : 0 <= c) by (apply rnd_nonnegative; lra).
   assert (QQ : 126 / 128 <= q * q <= 1).
@@ -830,11 +823,8 @@ Proof.
   assert (LI : (sx + sy) * q <= I) by now apply sum_relative.
   assert (LJ : (I + 2 * eta) * q <= J) by (apply sum_relative; auto; [apply rnd_number | lra]).
   assert (LZ : (P + J) * q <= fl (P + J)) by (apply sum_relative; auto; apply rnd_number).
-  assert (HQ : h <= h * 1) by lra.
   apply inflated_covers; [apply rnd_nonnegative, Rplus_le_le_0_compat; auto | |].
   - (* if P is 0, the rest of 2 eta covers its h *)
-    assert (V1 : (P + h) * (f * (q * q)) >= P + h).
-    { apply Rle_ge, no_less; lra. }
     assert (T1 : (sx + sy) * (q * q) + 2 * eta * q <= J).
     { apply Rle_trans with (2 := LJ). replace ((sx + sy) * (q * q) + 2 * eta * q) with
         (((sx + sy) * q + 2 * eta) * q) by ring. apply Rmult_le_compat_r; lra. }

@@ -179,7 +179,6 @@ Proof.
 Qed.
 Theorem affine_keeps_operations : keeps_operations p emax affine (by_rule None) (affine_known e).
 Proof.
-  assert (G : None = Some 0%Z \/ @None Z = None) by now right.
   split; cbn [affine_operations the_rule rule_add rule_multiply rule_divide rule_scale].
   - apply affine_promises.
   - intros a sa x b sb y KA KB. destruct (new_to_both sa sb) as (f & NA & NB).
@@ -576,8 +575,8 @@ Proof.
   replace (1 * r ^ (1 * Pos.to_nat bits)) with (r ^ Pos.to_nat bits) in P by (rewrite Nat.mul_1_l; ring).
   apply makes_after with (1 := P). intros power l1 j C R1 W.
   apply makes_beside with (1 := R1) (2 := of_exactly None l1 (integer _ F 1)). intros R2.
-  apply gives_once; auto. apply (of_divide _ _ _ (B2R (integer _ F 1)) _ (r ^ Pos.to_nat bits));
-    [now left | now right |].
+  apply gives_once; auto.
+  apply (of_divide _ _ _ (B2R (integer _ F 1)) _ (r ^ Pos.to_nat bits)); [now left | now right |].
   rewrite (proj2 (integer_value p emax p_3 1 ltac:(lia))).
   destruct Q as [-> | ->]; [left; apply pow_i; lia | right; unfold Rdiv; ring].
 Qed.

@@ -593,8 +593,8 @@ Proof.
   { apply nonnegative_over; auto; [apply nonnegative_over; auto |]; auto using nonnegative_u, nonnegative_eta. }
   assert (FM : finite (abs _ F (a ⊗ b))) by now apply abs_finite_intro.
   assert (Fw : finite w).
-  { clearbody w. clear - Pw H FM. destruct (abs _ F (a ⊗ b)) as [| t | |]; try discriminate;
-      destruct w as [| [|] | |]; easy. }
+  { clearbody w. clear - Pw H FM.
+    destruct (abs _ F (a ⊗ b)) as [| t | |]; try discriminate; destruct w as [| [|] | |]; easy. }
   assert (T : fl (fl (Format.eta emin / Format.u p) / Format.u p) <= Rabs (fl (B2R a * B2R b))).
   { rewrite at_most_finite in H by auto. apply (abs_finite p emax p_3) in FM. destruct FM as [_ EM].
     rewrite EM, EV in H. generalize Fw. intros H'. apply over_finite in H'; auto. destruct H' as [H' E1].
@@ -885,8 +885,8 @@ Proof.
     destruct (Req_bool_spec (B2R off) 0) as [O | O]; [| discriminate C0]. rewrite O in *.
     assert (D1 : B2R u - B2R a <= d) by apply Rmax_l. assert (D2 : B2R a - B2R l <= d) by apply Rmax_r.
     assert (D : 0 <= fl d) by (apply (Format.rnd_nonnegative p emin Format.nearest); lra).
-    assert (D0 : fl d = 0) by lra. revert D0. unfold d. apply Rmax_case; intros D0;
-      apply difference_0 in D0; try apply number_B2R; lra. }
+    assert (D0 : fl d = 0) by lra. revert D0. unfold d.
+    apply Rmax_case; intros D0; apply difference_0 in D0; try apply number_B2R; lra. }
   destruct (certain && negb (less _ F enough (largest _ F))) eqn:C1.
   - intros _. split; [exact FA |]. rewrite (proj2 largest_value).
     apply andb_prop in C1. destruct C1 as [C1 _]. exact (Certain C1).

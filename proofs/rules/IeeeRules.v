@@ -133,11 +133,11 @@ Proof.
   assert (G := plus_finite p emax _ _ FS). destruct G as (FX & FY & ES).
   split; auto. split; auto. revert H. unfold sum_above, Upper.sum_above. cbv zeta.
   assert (M : finite (max _ F x y) /\ nonnegative (max _ F x y) /\ B2R (max _ F x y) = Rmax (B2R x) (B2R y)).
-  { unfold max. rewrite less_finite by auto. unfold Rmax. case Rlt_bool_spec; intros C;
-      destruct (Rle_dec (B2R x) (B2R y)); repeat split; auto; lra. }
+  { unfold max. rewrite less_finite by auto. unfold Rmax.
+    case Rlt_bool_spec; intros C; destruct (Rle_dec (B2R x) (B2R y)); repeat split; auto; lra. }
   assert (L : finite (least _ F x y) /\ B2R (least _ F x y) = Rmin (B2R x) (B2R y)).
-  { unfold least. rewrite less_finite by auto. unfold Rmin. case Rlt_bool_spec; intros C;
-      destruct (Rle_dec (B2R x) (B2R y)); split; auto; lra. }
+  { unfold least. rewrite less_finite by auto. unfold Rmin.
+    case Rlt_bool_spec; intros C; destruct (Rle_dec (B2R x) (B2R y)); split; auto; lra. }
   destruct M as (FM & PM & EM), L as (FL & EL).
   assert (PS : nonnegative (x ⊕ y)) by positive.
   assert (D := minus_nonnegative_finite _ _ FS FM PS PM).
@@ -377,8 +377,8 @@ Proof.
       (round radix2 (SpecFloat.fexp p emax) (round_mode mode_NE) (B2R v * bpow radix2 k)).
     rewrite <- E. apply equal_finite; auto. simpl. now rewrite H.
   - intros O. rewrite Req_bool_false.
-    + simpl. revert O. destruct (Bldexp mode_NE v k); try discriminate. destruct a; try easy;
-      simpl; now destruct s.
+    + simpl. revert O. destruct (Bldexp mode_NE v k); try discriminate.
+      destruct a; try easy; simpl; now destruct s.
     + intros E. unfold Format.rnd in E. simpl round_mode in C.
       assert (L := abs_B2R_lt_emax p emax a). rewrite <- E in L.
       apply (Rlt_not_le _ _ L). exact C.

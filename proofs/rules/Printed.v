@@ -39,8 +39,8 @@ Theorem printed_product_lost : number eta /\
 Proof.
   generalize (number_eta p emin) (eta_positive emin). intros N P.
   assert (Z : fl (eta * eta) = 0).
-  { unfold Format.eta. rewrite <- bpow_plus. apply round_N_small_pos with (emin + emin + 1)%Z;
-      auto with typeclass_instances.
+  { unfold Format.eta. rewrite <- bpow_plus.
+    apply round_N_small_pos with (emin + emin + 1)%Z; auto with typeclass_instances.
     - split; [apply bpow_le | apply bpow_lt]; lia.
     - unfold FLT_exp. lia. }
   split; auto. rewrite Z. unfold tight_product.

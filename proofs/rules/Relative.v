@@ -495,10 +495,7 @@ Proof.
   assert (C : 9 / 10 <= c <= 1).
   { split; [lra |]. apply rnd_below; auto with typeclass_instances; [| lra].
     change 1 with (bpow radix2 0). apply number_power; auto. lia. }
-  assert (B : v / 2 <= b).
-  { apply Rle_trans with (2 := D2'). apply Rle_trans with (v * (9 / 10) * (1 - v)).
-    - assert (v * v <= v * / 16777216) by (apply Rmult_le_compat_l; lra). lra.
-    - apply Rmult_le_compat_r; lra. }
+  assert (B : v / 2 <= b) by nra.
   replace (1 + 1) with 2 in D2 by ring. replace (0 + 101 / 100) with (101 / 100) in U3 by ring.
   assert (Q := quotient_lower b c (u * (1 - u / 2)) (1 - u) 2 (101 / 100) ltac:(apply Rmult_le_pos; lra)
     ltac:(lra) ltac:(lra) ltac:(lra) D2 U3 ltac:(lra)).
@@ -769,9 +766,7 @@ Lemma count_of_share_nonnegative r : double r -> 0 <= r < 1 -> 0 <= count_of_sha
 Proof.
   intros D H. generalize u_bounds v_small (count_of_share_sound r D H) (minus_ln_ge r H)
     (minus_ln_ge u ltac:(generalize u_bounds v_small; lra)). intros U V S A B.
-  assert (0 <= u * u) by (apply Rmult_le_pos; lra).
-  assert (0 <= r * r) by (apply Rmult_le_pos; lra).
-  apply Rmult_le_reg_r with (- ln (1 - u)); lra.
+  nra.
 Qed.
 
 (** The relative error of a count: at least e^(kw) - 1, w = - ln(1 - u). *)

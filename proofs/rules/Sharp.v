@@ -107,14 +107,7 @@ Qed.
 Lemma f_q5 : 1 <= f * (q * q * q * q * q).
 Proof.
   generalize u_8 q_u q_1. intros U Q Q1.
-  assert (A : (1 + u) * (1 + u) * (1 + u) * (1 + u) * (1 + u) <= f).
-  { unfold f. assert (S : (1 + u) * (1 + u) <= 1 + 17 / 8 * u) by nra.
-    assert (T : (1 + u) * (1 + u) * ((1 + u) * (1 + u)) <= (1 + 17 / 8 * u) * (1 + 17 / 8 * u)).
-    { apply Rmult_le_compat; nra. }
-    assert (V : (1 + 17 / 8 * u) * (1 + 17 / 8 * u) <= 1 + 5 * u) by nra.
-    assert (W : (1 + u) * (1 + u) * ((1 + u) * (1 + u)) * (1 + u) <= (1 + 5 * u) * (1 + u)).
-    { apply Rmult_le_compat_r; lra. }
-    nra. }
+  assert (A : (1 + u) * (1 + u) * (1 + u) * (1 + u) * (1 + u) <= f) by (unfold f; nra).
   apply Rle_trans with ((1 + u) * (1 + u) * (1 + u) * (1 + u) * (1 + u) * (q * q * q * q * q)).
   - right. replace ((1 + u) * (1 + u) * (1 + u) * (1 + u) * (1 + u) * (q * q * q * q * q))
       with (q * (1 + u) * (q * (1 + u)) * (q * (1 + u)) * (q * (1 + u)) * (q * (1 + u))) by ring.
@@ -260,9 +253,7 @@ Proof.
       - apply Rmult_le_compat_r; [lra |]. now apply Rplus_le_compat. }
     generalize f_q5 f_q3; intros.
     apply Rle_trans with (((R + X) * (q * q * q * q) + eta * (q * q)) * (f * q)).
-    + replace (((R + X) * (q * q * q * q) + eta * (q * q)) * (f * q))
-        with ((R + X) * (f * (q * q * q * q * q)) + eta * (f * (q * q * q))) by ring.
-      nra.
+    + nra.
     + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
 Qed.
 

@@ -295,7 +295,6 @@ Lemma quotient_inherits a x sa b y sb :
   Rabs (a / b - x / y) <= (sa + Rabs (a / b) * sb) / (Rabs b - sb).
 Proof.
   intros HA HB D.
-  assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
   assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
   assert (Y : Rabs b - sb <= Rabs y).
   { assert (Rabs b <= Rabs (b - y) + Rabs y).
@@ -400,7 +399,6 @@ Proof.
       + apply Rinv_le; auto. }
   assert (PI : 0 <= N / d).
   { apply Rmult_le_pos; auto. now apply Rlt_le, Rinv_0_lt_compat. }
-  assert (NI : number I) by apply rnd_number.
   assert (PIr : 0 <= I) by now apply rnd_nonnegative.
   assert (HJ : Z - h * (1 + f) <= inflated I).
   { rewrite inflated_exact. destruct (quotient_inflated p emin direction q h q_1 (error_h _ _ _ _ _ E) (proj1 leaves)
@@ -433,32 +431,10 @@ Qed.
 End Proof.
 
 (** The factor 1 + 8 eps covers six roundings: of eps each from 5 bits on, of u from 3 bits on. *)
-Lemma power_6_lower e : 0 <= e <= 1 -> 1 - 6 * e + 15 * e * e - 20 * e * e * e <= (1 - e) ^ 6.
-Proof.
-  intros H. replace ((1 - e) ^ 6) with (1 - 6 * e + 15 * e * e - 20 * e * e * e
-    + e * e * e * e * (15 - 6 * e + e * e)) by ring.
-  assert (0 <= e * e * e * e) by (repeat apply Rmult_le_pos; lra). nra.
-Qed.
 Lemma six_roundings_any e : 0 <= e <= / 16 -> 1 <= (1 + 8 * e) * (1 - e) ^ 6.
-Proof.
-  intros H. apply Rle_trans with ((1 + 8 * e) * (1 - 6 * e + 15 * e * e - 20 * e * e * e)).
-  - replace ((1 + 8 * e) * (1 - 6 * e + 15 * e * e - 20 * e * e * e))
-      with (1 + e * (2 - 33 * e + e * e * (100 - 160 * e))) by ring.
-    assert (0 <= e * e * (100 - 160 * e)) by (repeat apply Rmult_le_pos; nra).
-    nra.
-  - apply Rmult_le_compat_l; [lra | apply power_6_lower; lra].
-Qed.
+Proof. intros H. nra. Qed.
 Lemma six_roundings_nearest e : 0 <= e <= / 8 -> 1 <= (1 + 16 * e) * (1 - e) ^ 6.
-Proof.
-  intros H. apply Rle_trans with ((1 + 16 * e) * (1 - 6 * e + 15 * e * e - 20 * e * e * e)).
-  - replace ((1 + 16 * e) * (1 - 6 * e + 15 * e * e - 20 * e * e * e))
-      with (1 + e * (10 - 81 * e + e * e * (220 - 320 * e))) by ring.
-    assert (e * e <= e * / 8) by nra. assert (0 <= e * e) by nra.
-    assert (180 * (e * e) <= e * e * (220 - 320 * e)) by nra.
-    assert (0 <= 10 - 81 * e + e * e * (220 - 320 * e)) by nra.
-    nra.
-  - apply Rmult_le_compat_l; [lra | apply power_6_lower; lra].
-Qed.
+Proof. intros H. nra. Qed.
 
 Theorem tight_exact_sound x : Rabs (x - x) <= tight_exact x.
 Proof.

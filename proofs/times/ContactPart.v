@@ -215,7 +215,6 @@ Proof.
   pose proof (ends_change k p P K Lp Fp Cp) as Ends.
   assert (At : forall t, control_at Y t = control_at P ((t - low) / (high - low)))
     by (intros t; rewrite E; f_equal; field; lra).
-  assert (Inv : forall u, (low + u * (high - low) - low) / (high - low) = u) by (intros u; field; lra).
   assert (E0 : control_at Y low = control_at P 0) by (rewrite E; f_equal; ring).
   assert (W : forall u, 0 < u < 1 -> low < low + u * (high - low) < high) by (intros u U; split; nra).
   split.

@@ -131,8 +131,8 @@ Lemma asked_step distinct three D q : known_but distinct three D -> good three q
 Proof.
   intros K (H & Lv & _) A. destruct (asked_root distinct three D q K H A) as (O & Once & r & R0 & Z & Only).
   pose proof (part_inside y q H) as In01. exists r. split; [| intros t T; now apply Only]. split; [lra |]. split.
-  { intros found E. apply part_root_searched in E. apply (search_only double _ _ _ _ r _ E); auto; intros t T;
-      now apply Only. }
+  { intros found E. apply part_root_searched in E.
+    apply (search_only double _ _ _ _ r _ E); auto; intros t T; now apply Only. }
   assert (Right : forall place, let bits := Z.min (level q + 48) 62 in forall o, near distinct 3 1 q place bits = Some o ->
     (o = collides -> interior r) /\ (o = separate -> ~ interior r)).
   { intros place bits o N. assert (Hb : (level q <= bits)%Z) by (unfold max_halvings in Lv; unfold bits; lia).

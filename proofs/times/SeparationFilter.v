@@ -53,7 +53,6 @@ Proof.
     eapply Rle_trans; [apply Rabs_triang |]. rewrite Rabs_Ropp. pose proof (Rabs_triang s (- (s - Y))) as T.
     rewrite Rabs_Ropp in T. lra. }
   assert (M0 : 0 <= m) by (pose proof (Rabs_pos s); lra).
-  assert (Um : 0 <= u * m) by (apply Rmult_le_pos; lra).
   assert (B2 : u * Rabs X <= u * m + 2 * (u * (u * m)) + 2 * eta).
   { assert (Q1 : Rabs X * (1 - u) <= m + eta) by lra.
     assert (Q2 : Rabs X <= (m + eta) * (1 + 2 * u)).
@@ -104,21 +103,17 @@ Proof.
   unfold projected. destruct axis_component as (Ax & Ay & Az). pose proof (product_within _ _ _ _ Ax Sx) as Px.
   pose proof (product_within _ _ _ _ Ay Sy) as Py. pose proof (product_within _ _ _ _ Az Sz) as Pz.
   assert (S0 : 0 <= S) by (unfold S; lra). assert (Us : u * S <= / 1048576 * S) by (apply Rmult_le_compat_r; lra).
-  assert (Ux : 0 <= u * mx /\ 0 <= u * my /\ 0 <= u * mz) by (repeat split; apply Rmult_le_pos; lra).
   assert (Uu : forall m, 0 <= m -> u * (u * m) <= / 1048576 * (u * m)).
   { intros m M. apply Rmult_le_compat_r; [apply Rmult_le_pos; lra | lra]. }
   pose proof (Uu mx mx_0). pose proof (Uu my my_0). pose proof (Uu mz mz_0).
-  assert (Us' : u * S = u * mx + u * my + u * mz) by (unfold S; ring).
   destruct (fl_within _ _ Px) as (Rx & Bx). destruct (fl_within _ _ Py) as (Ry & By). destruct (fl_within _ _ Pz) as (Rz & Bz).
   set (px := fl (x a * x s)) in *. set (py := fl (y a * y s)) in *. set (pz := fl (z a * z s)) in *.
   assert (Small : forall m, 0 <= m -> u * m <= / 1048576 * m) by (intros m M; apply Rmult_le_compat_r; lra).
   pose proof (Small mx mx_0). pose proof (Small my my_0). pose proof (Small mz mz_0).
   assert (Bx' : Rabs px <= 1002 / 1000 * mx + eta) by lra. assert (By' : Rabs py <= 1002 / 1000 * my + eta) by lra.
-  assert (Bz' : Rabs pz <= 1002 / 1000 * mz + eta) by lra.
   assert (B1 : Rabs (px + py) <= 1002 / 1000 * (mx + my) + 2 * eta) by (pose proof (Rabs_triang px py); lra).
   destruct (fl_within _ _ B1) as (R1 & C1). set (q := fl (px + py)) in *.
   assert (Ue : 0 <= u * eta <= / 1048576 * eta) by (split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra).
-  assert (C1' : Rabs q <= 1003 / 1000 * (mx + my) + 4 * eta) by lra.
   assert (B2 : Rabs (q + pz) <= 1004 / 1000 * S + 5 * eta) by (pose proof (Rabs_triang q pz); unfold S; lra).
   destruct (fl_within _ _ B2) as (R2 & C2). set (P := fl (q + pz)) in *.
   split; [| assert (Rabs P <= 1004 / 1000 * S + 5 * eta + (u * (1004 / 1000 * S + 5 * eta) + eta)) by lra; lra].

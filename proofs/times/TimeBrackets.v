@@ -104,8 +104,8 @@ Lemma search_only p before low high r b : search p before low high b -> low < r 
   (forall x, low < x < high -> p x * before < 0 -> r < x) ->
   (forall x, low < x < high -> p x = 0 -> x = r) -> holds_time b r.
 Proof.
-  intros B R0 Later Earlier Only. destruct (search_right p before low high r b B R0 Later Earlier)
-    as [| (L & D & E & Z)]; auto.
+  intros B R0 Later Earlier Only.
+  destruct (search_right p before low high r b B R0 Later Earlier) as [| (L & D & E & Z)]; auto.
   pose proof (Only _ L Z) as F. left. rewrite E, <- F. auto.
 Qed.
 
@@ -133,7 +133,6 @@ Proof.
     left. auto.
   - assert (O : p0 * p1 < 0) by (destruct (Req_dec (p0 * p1) 0) as [Q |]; [apply Rmult_integral in Q; tauto | lra]).
     assert (P : 0 < p0 * (p0 - p1)) by nra. assert (P1 : 0 < - p1 * (p0 - p1)) by nra.
-    assert (E1 : (1 - r) * (p0 - p1) = - p1) by lra.
     assert (R0 : 0 < r < 1).
     { destruct (Rlt_or_le 0 (p0 - p1)) as [Q | Q].
       - assert (0 < p0) by nra. assert (0 < - p1) by nra. split; nra.

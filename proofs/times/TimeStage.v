@@ -36,8 +36,8 @@ Proof.
   { rewrite Rabs_mult, (Rabs_pos_eq t) by lra. apply Rle_trans with (1 * Rabs d); [apply Rmult_le_compat_r; [apply Rabs_pos | lra] | lra]. }
   pose proof (fl_any (t * d)) as R2. set (w := fl (t * d)) in *.
   assert (W : Rabs (w - t * d) <= 2 * (u * m) + 2 * (u * (u * m)) + eta).
-  { apply Rle_trans with (1 := R2). apply Rplus_le_compat_r. apply Rle_trans with (u * (2 * m + 2 * (u * m)));
-      [apply Rmult_le_compat_l; lra | lra]. }
+  { apply Rle_trans with (1 := R2). apply Rplus_le_compat_r.
+    apply Rle_trans with (u * (2 * m + 2 * (u * m))); [apply Rmult_le_compat_l; lra | lra]. }
   assert (Dt : Rabs (t * (d - (b - a))) <= 2 * (u * m)).
   { rewrite Rabs_mult, (Rabs_pos_eq t) by lra. apply Rle_trans with (1 * Rabs (d - (b - a)));
       [apply Rmult_le_compat_r; [apply Rabs_pos | lra] | lra]. }

@@ -62,8 +62,8 @@ Proof.
   assert (Um : 0 <= u * m) by (apply Rmult_le_pos; lra).
   assert (U1 : u * (u * m) <= / 1024 * (u * m)) by (apply Rmult_le_compat_r; lra).
   assert (U2 : u * (u * (u * m)) <= / 1024 * (u * m)).
-  { assert (0 <= u * (u * m)) by (apply Rmult_le_pos; lra). assert (u * (u * (u * m)) <= / 1024 * (u * (u * m)));
-      [apply Rmult_le_compat_r |]; lra. }
+  { assert (0 <= u * (u * m)) by (apply Rmult_le_pos; lra).
+    assert (u * (u * (u * m)) <= / 1024 * (u * (u * m))); [apply Rmult_le_compat_r |]; lra. }
   split.
   - replace (s + e - (x + y)) with (e - (y - z) + - (z - (s - x))) by ring.
     eapply Rle_trans; [apply Rabs_triang |]. rewrite Rabs_Ropp. lra.
@@ -348,10 +348,7 @@ Proof.
   assert (Um : 0 < u * P) by (apply Rmult_lt_0_compat; lra).
   assert (U2 : u * (u * P) <= / 1099511627776 * (u * P)) by (apply Rmult_le_compat_r; lra).
   assert (U0 : 0 <= u * (u * P)) by (apply Rmult_le_pos; lra).
-  assert (U4 : u * (u * (u * (u * P))) <= / 1099511627776 * (u * (u * P))).
-  { apply Rle_trans with (u * (/ 1099511627776 * (u * P))); [| lra]. apply Rmult_le_compat_l; [lra |].
-    apply Rle_trans with (2 := U2). apply Rmult_le_compat_l; [lra |].
-    rewrite <- (Rmult_1_l (u * P)) at 2. apply Rmult_le_compat_r; lra. }
+  assert (U4 : u * (u * (u * (u * P))) <= / 1099511627776 * (u * (u * P))) by nra.
   assert (Pr : forall q r s t, near q s m -> near r t n -> known (product q r) (s * t) P (116 * (u * (u * P)))).
   { intros q r s t Q R. apply known_less with (m * (51 * (u * (u * n))) + n * (51 * (u * (u * m))) +
       51 * (u * (u * m)) * (51 * (u * (u * n))) + 13 * (u * (u * P))).
@@ -385,10 +382,7 @@ Proof.
   assert (Um : 0 < u * M) by (apply Rmult_lt_0_compat; lra).
   assert (U2 : u * (u * M) <= / 1099511627776 * (u * M)) by (apply Rmult_le_compat_r; lra).
   assert (U0 : 0 <= u * (u * M)) by (apply Rmult_le_pos; lra).
-  assert (U4 : u * (u * (u * (u * M))) <= / 1099511627776 * (u * (u * M))).
-  { apply Rle_trans with (u * (/ 1099511627776 * (u * M))); [| lra]. apply Rmult_le_compat_l; [lra |].
-    apply Rle_trans with (2 := U2). apply Rmult_le_compat_l; [lra |].
-    rewrite <- (Rmult_1_l (u * M)) at 2. apply Rmult_le_compat_r; lra. }
+  assert (U4 : u * (u * (u * (u * M))) <= / 1099511627776 * (u * (u * M))) by nra.
   assert (Term : forall n v N V m k, 2 * (m * k) = 2 * M -> 0 < m -> 0 < k ->
     known n N (2 * m) (243 * (u * (u * m))) -> near v V k -> known (product n v) (N * V) (2 * M) (372 * (u * (u * M)))).
   { intros n v N V m k E Pm Pk Kn Kv. assert (E' : 2 * m * k = 2 * M) by lra. assert (Em : m * k = M) by lra.
@@ -398,9 +392,7 @@ Proof.
       replace (243 * (u * (u * m)) * (51 * (u * (u * k)))) with (12393 * (u * (u * (u * (u * (m * k)))))) by ring.
       replace (2 * m * (51 * (u * (u * k)))) with (102 * (u * (u * (m * k)))) by ring.
       replace (k * (243 * (u * (u * m)))) with (243 * (u * (u * (m * k)))) by ring. rewrite Em. lra.
-    - replace (243 * (u * (u * m)) * (51 * (u * (u * k)))) with (12393 * (u * (u * (u * (u * (m * k)))))) by ring.
-      replace (2 * m * (51 * (u * (u * k)))) with (102 * (u * (u * (m * k)))) by ring.
-      replace (k * (243 * (u * (u * m)))) with (243 * (u * (u * (m * k)))) by ring. rewrite E', Em. lra. }
+    - nra. }
   pose proof (cross_near _ _ _ _ _ _ _ _ Y Z KBy KCz KBz KCy MY MZ) as Nx.
   pose proof (cross_near _ _ _ _ _ _ _ _ Z X KBz KCx KBx KCz MZ MX) as Ny.
   pose proof (cross_near _ _ _ _ _ _ _ _ X Y KBx KCy KBy KCx MX MY) as Nz.

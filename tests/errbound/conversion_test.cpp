@@ -53,31 +53,31 @@ void check(From value, From error) {
     const auto y = convert<To>(x);
     static_assert(std::is_same_v<decltype(y), const tracked<To, Rule>>);
     using traits = number_traits<To>;
-    const std::string what = std::string(Rule::name) + " " +
-                             std::to_string(static_cast<double>(value)) + " +- " +
-                             std::to_string(static_cast<double>(error));
+    const std::string context = std::string(Rule::name) + " " +
+                                std::to_string(static_cast<double>(value)) + " +- " +
+                                std::to_string(static_cast<double>(error));
     if (!number_traits<From>::is_finite(value) || !number_traits<From>::is_finite(x.error())) {
-        ASSERT_FALSE(traits::is_finite(y.error())) << what;
-        ASSERT_EQ(sign_of(y), sign_type::uncertain) << what;
+        ASSERT_FALSE(traits::is_finite(y.error())) << context;
+        ASSERT_EQ(sign_of(y), sign_type::uncertain) << context;
         return;
     }
     const To plain = nearest_to<To>(value);
     if (!traits::is_finite(plain) || !traits::is_finite(y.error())) {
-        ASSERT_EQ(sign_of(y), sign_type::uncertain) << what;
+        ASSERT_EQ(sign_of(y), sign_type::uncertain) << context;
         // Only numbers that are too large for the type have infinite errors.
         ASSERT_TRUE(!traits::is_finite(plain) ||
                     exactly(x.error()) * 4 + exactly(traits::abs(plain)) * 4 >
                         exactly(traits::largest() * traits::unit_roundoff()))
-            << what;
+            << context;
         return;
     }
-    ASSERT_EQ(y.value(), plain) << what;
+    ASSERT_EQ(y.value(), plain) << context;
     const rational off = exactly(plain) - exactly(value);
     const rational away = boost::multiprecision::abs(off);
     const rational needed = away + exactly(error), bound = exactly(y.error());
-    ASSERT_GE(bound, needed) << what;
+    ASSERT_GE(bound, needed) << context;
     if (away == 0 && error == From(0)) {
-        ASSERT_EQ(bound, 0) << what;
+        ASSERT_EQ(bound, 0) << context;
     }
 }
 

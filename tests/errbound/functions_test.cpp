@@ -2,6 +2,7 @@
 // hold, in random expressions and in tiny formats.
 #include <gtest/gtest.h>
 
+#include <cfloat>
 #include <cmath>
 #include <complex>
 #include <errbound/elementary.hpp>
@@ -13,6 +14,13 @@
 #include <random>
 
 #include "tests/support/long_double.hpp"
+
+#if defined(__GLIBC__) && LDBL_MANT_DIG == 64
+/// The error of another library's function.
+template <>
+inline constexpr double errbound::function_error<errbound::elementary_function::exp2, long double> =
+    7.5;
+#endif
 
 namespace {
 
@@ -233,6 +241,16 @@ TEST(Functions, OfNoneAreThoseOfPlainArithmetic) {
     EXPECT_EQ(abs(number(-2)).value(), 2);
     EXPECT_EQ(sign_of(sqrt(number(-1))), sign_type::uncertain);
 }
+
+#if defined(__GLIBC__) && LDBL_MANT_DIG == 64
+TEST(FunctionErrors, CanBeSetByAProgram) {
+    const long double x = 0.5, v = std::exp2(x), unit = std::numeric_limits<long double>::epsilon();
+    const auto named = exp2(tracked<long double>(x)), other = exp(tracked<long double>(x));
+    EXPECT_GE(named.error(), 7.5 * unit * v);
+    EXPECT_LE(named.error(), 7.6 * unit * v);
+    EXPECT_LE(other.error(), 2.1 * unit * other.value());
+}
+#endif
 
 TEST(CompoundFunctions, HaveTightErrors) {
     using number = tracked<double>;

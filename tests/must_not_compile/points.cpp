@@ -2,7 +2,7 @@
 // defined.
 #include <errbound/predicates.hpp>
 
-#ifdef CASE_another_namespace
+#ifdef CASE_another_namespace  // coordinate_of.point, i. in the namespace of the point's type
 // coordinate_of is not in the namespace of the point's type, so argument-dependent lookup does not
 // find it.
 namespace survey {
@@ -17,7 +17,7 @@ const survey::station s{};
 const auto sign = errbound::orient2d(s, s, s);
 #endif
 
-#ifdef CASE_matrix
+#ifdef CASE_matrix  // if it is a row or a column: write m.col
 // A point is a matrix with several rows and columns.
 #include <Eigen/Core>
 
@@ -25,7 +25,7 @@ const Eigen::Matrix2d m = Eigen::Matrix2d::Zero();
 const auto sign = errbound::orient2d(m, m, m);
 #endif
 
-#ifdef CASE_matrix_as_range
+#ifdef CASE_matrix_as_range  // a matrix is not a range of points: write m.colwise
 // A matrix is passed as a range of points, which could be its columns or its rows.
 #include <Eigen/Core>
 #include <errbound/predicate_batch.hpp>
@@ -35,7 +35,7 @@ void find_signs(const Eigen::Matrix2Xd& m, errbound::sign_type* signs) {
 }
 #endif
 
-#ifdef CASE_too_short
+#ifdef CASE_too_short  // fewer coordinates than the predicate's shape
 // Points have two coordinates instead of three.
 struct point {
     double x, y;
@@ -44,7 +44,7 @@ const point p{};
 const auto sign = errbound::orient3d(p, p, p, p);
 #endif
 
-#ifdef CASE_too_short_span
+#ifdef CASE_too_short_span  // fewer coordinates than the predicate's shape
 // A span of two numbers is passed as a point of three.
 #include <span>
 
@@ -53,7 +53,7 @@ const std::span<const double, 2> p(x);
 const auto sign = errbound::orient3d(p, p, p, p);
 #endif
 
-#ifdef CASE_too_short_vector
+#ifdef CASE_too_short_vector  // fewer coordinates than the predicate's shape
 // A vector with at most two elements, whose number is known at run time, is passed as a point of
 // three.
 #include <Eigen/Core>

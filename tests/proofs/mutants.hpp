@@ -47,123 +47,35 @@ constexpr T either(T original, T other) {
 }
 
 /// a OP b becomes a OP tag OP b with the same precedence: `operand` stores a until b is evaluated.
+/// Both operands are evaluated.
 template <class Tag, class A>
 struct operand {
     const A& a;
 };
-
-template <int K>
-struct less {};
-template <int K>
-struct at_most {};
-template <int K>
-struct greater {};
-template <int K>
-struct at_least {};
-template <class A, template <int> class Tag, int K>
-constexpr operand<Tag<K>, A> operator<(const A& a, Tag<K>) {
-    return {a};
-}
-template <class A, class B, int K>
-constexpr auto operator>(operand<less<K>, A> x, const B& b) {
-    return on(K) ? x.a <= b : x.a < b;
-}
-template <class A, class B, int K>
-constexpr auto operator>(operand<at_most<K>, A> x, const B& b) {
-    return on(K) ? x.a < b : x.a <= b;
-}
-template <class A, class B, int K>
-constexpr auto operator>(operand<greater<K>, A> x, const B& b) {
-    return on(K) ? x.a >= b : x.a > b;
-}
-template <class A, class B, int K>
-constexpr auto operator>(operand<at_least<K>, A> x, const B& b) {
-    return on(K) ? x.a > b : x.a >= b;
-}
-
-template <int K>
-struct equal {};
-template <class A, int K>
-constexpr operand<equal<K>, A> operator==(const A& a, equal<K>) {
-    return {a};
-}
-template <class A, class B, int K>
-constexpr bool operator==(operand<equal<K>, A> x, const B& b) {
-    return on(K) ? !(x.a == b) : x.a == b;
-}
-template <int K>
-struct unequal {};
-template <class A, int K>
-constexpr operand<unequal<K>, A> operator!=(const A& a, unequal<K>) {
-    return {a};
-}
-template <class A, class B, int K>
-constexpr bool operator!=(operand<unequal<K>, A> x, const B& b) {
-    return on(K) ? !(x.a != b) : x.a != b;
-}
-
-/// Evaluates both operands.
-template <int K>
-struct both {};
-template <class A, int K>
-constexpr operand<both<K>, A> operator&&(const A& a, both<K>) {
-    return {a};
-}
-template <class A, class B, int K>
-constexpr bool operator&&(operand<both<K>, A> x, const B& b) {
-    return on(K) ? bool(x.a) || bool(b) : bool(x.a) && bool(b);
-}
-template <int K>
-struct any {};
-template <class A, int K>
-constexpr operand<any<K>, A> operator||(const A& a, any<K>) {
-    return {a};
-}
-template <class A, class B, int K>
-constexpr bool operator||(operand<any<K>, A> x, const B& b) {
-    return on(K) ? bool(x.a) && bool(b) : bool(x.a) || bool(b);
-}
-template <int K>
-struct both_bits {};
-template <class A, int K>
-constexpr operand<both_bits<K>, A> operator&(const A& a, both_bits<K>) {
-    return {a};
-}
-template <class A, class B, int K>
-constexpr auto operator&(operand<both_bits<K>, A> x, const B& b) {
-    return on(K) ? x.a | b : x.a & b;
-}
-template <int K>
-struct any_bit {};
-template <class A, int K>
-constexpr operand<any_bit<K>, A> operator|(const A& a, any_bit<K>) {
-    return {a};
-}
-template <class A, class B, int K>
-constexpr auto operator|(operand<any_bit<K>, A> x, const B& b) {
-    return on(K) ? x.a & b : x.a | b;
-}
-
-template <int K>
-struct plus {};
-template <class A, int K>
-constexpr operand<plus<K>, A> operator+(const A& a, plus<K>) {
-    return {a};
-}
-template <class A, class B, int K>
-constexpr auto operator+(operand<plus<K>, A> x, const B& b) {
-    return on(K) ? x.a - b : x.a + b;
-}
-template <int K>
-struct minus {};
-template <class A, int K>
-constexpr operand<minus<K>, A> operator-(const A& a, minus<K>) {
-    return {a};
-}
-template <class A, class B, int K>
-constexpr auto operator-(operand<minus<K>, A> x, const B& b) {
-    return on(K) ? x.a + b : x.a - b;
-}
+#define MUTANTS_OPERATOR(tag, opening, closing, original, changed)      \
+    template <int K>                                                    \
+    struct tag {};                                                      \
+    template <class A, int K>                                           \
+    constexpr operand<tag<K>, A> operator opening(const A& a, tag<K>) { \
+        return {a};                                                     \
+    }                                                                   \
+    template <class A, class B, int K>                                  \
+    constexpr auto operator closing(operand<tag<K>, A> x, const B& b) { \
+        return on(K) ? changed : original;                              \
+    }
+MUTANTS_OPERATOR(less, <, >, x.a < b, x.a <= b)
+MUTANTS_OPERATOR(at_most, <, >, x.a <= b, x.a < b)
+MUTANTS_OPERATOR(greater, <, >, x.a > b, x.a >= b)
+MUTANTS_OPERATOR(at_least, <, >, x.a >= b, x.a > b)
+MUTANTS_OPERATOR(equal, ==, ==, x.a == b, !(x.a == b))
+MUTANTS_OPERATOR(unequal, !=, !=, x.a != b, !(x.a != b))
+MUTANTS_OPERATOR(both, &&, &&, bool(x.a) && bool(b), bool(x.a) || bool(b))
+MUTANTS_OPERATOR(any, ||, ||, bool(x.a) || bool(b), bool(x.a) && bool(b))
+MUTANTS_OPERATOR(both_bits, &, &, (x.a) & (b), x.a | b)
+MUTANTS_OPERATOR(any_bit, |, |, x.a | b, (x.a) & (b))
+MUTANTS_OPERATOR(plus, +, +, x.a + b, x.a - b)
+MUTANTS_OPERATOR(minus, -, -, x.a - b, x.a + b)
+#undef MUTANTS_OPERATOR
 
 /// !b becomes negation ->* b.
 template <int K>

@@ -2,7 +2,7 @@
 
 usage: mutants.py COMPILER BUILD_FOLDER [TIE...]
 
-The test of a tie is the program tie_TIE.cpp, which compares the code with results of the proofs' definitions
+The test of a tie is the program tie_TIE.cpp, or tie_test.cpp for rules, which compares the code with results of the proofs' definitions
 (proofs/tie.txt). A copy of the tied files has all mutants (made_mutants.py) with numbers (mutants.hpp), and one program
 runs them one after the other. Mutants that it neither finds nor evaluates, such as constants of the compiler, are
 compiled separately. The others must be in equivalent_mutants.txt, with the reason why no result differs.
@@ -32,7 +32,7 @@ OPTIONS = ["-std=c++20", "-O1", "-ffp-contract=off", "-w", "-fmax-errors=100", "
            "-fsanitize=bounds", "-fsanitize-undefined-trap-on-error", "-ffunction-sections",
            "-Wl,--gc-sections", f'-DERRBOUND_TIE_TABLE="{root}/proofs/tie.txt"']
 # Additional sources of a tie, and the options with which it is compiled, one after the other.
-MORE_SOURCES = {"rules": [root / "errbound/validation/tiny_float.cpp", "-lgtest", "-lmpfr", "-lgmp"]}
+MORE_SOURCES = {"rules": [root / "errbound/validation/tiny_float.cpp", "-lmpfr", "-lgmp"]}
 VARIANTS = {"rules": [[], ["-mfma"]]}
 
 
@@ -48,7 +48,7 @@ class Run:
 
     def __init__(self, compiler, build, tie):
         self.compiler, self.build, self.tie = compiler, build / tie, tie
-        self.source = root / f"tests/proofs/tie_{tie}.cpp"
+        self.source = root / records.program(tie)
         self.start = time.monotonic()
         shutil.rmtree(self.build, ignore_errors=True)
         self.limit = None  # CPU seconds that a mutant may take, since some do not end

@@ -17,6 +17,10 @@
 #include "tests/proofs/drawn_query.hpp"
 #include "tests/proofs/table.hpp"
 
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wimplicit-const-int-float-conversion"  // a constant is rounded
+#endif
+
 namespace {
 
 using errbound::filters::filtered_coordinate;
@@ -197,16 +201,17 @@ class all_lines {
         add_static<T>("volume", volume);
         add_static<T>("lifted_area", lifted_area);
         add_static<T>("lifted_volume", lifted_volume);
-        add_all([this](const std::string& name, auto e) { add_static<T>(name, e); }, "homogeneous",
-                homogeneous);
-        add_all([this](const std::string& name, auto e) { add_static<T>(name, e); }, "mixed",
-                mixed);
+        add_all([this](const std::string& name, auto e) { this->template add_static<T>(name, e); },
+                "homogeneous", homogeneous);
+        add_all([this](const std::string& name, auto e) { this->template add_static<T>(name, e); },
+                "mixed", mixed);
         add_semi_static<T>("area", area);
         add_semi_static<T>("volume", volume);
         add_semi_static<T>("lifted_area", lifted_area);
         add_semi_static<T>("lifted_volume", lifted_volume);
-        add_all([this](const std::string& name, auto e) { add_semi_static<T>(name, e); },
-                "homogeneous", homogeneous);
+        add_all(
+            [this](const std::string& name, auto e) { this->template add_semi_static<T>(name, e); },
+            "homogeneous", homogeneous);
     }
     template <class Add, class... Expressions>
     static void add_all(const Add& add, const std::string& name, list<Expressions...>) {

@@ -124,10 +124,7 @@ ccd::advance_result library_advance(const advance_scene& scene, int threads) {
 }
 
 part advance_part(advancer advance) {
-    part all{.name = "advances",
-             .unit = "scenes",
-             .version = family_names() + "each vertex; line searches; "};
-    for (const auto& f : advance_families) all.version += std::string(f.name) + "; ";
+    part all{.name = "advances", .unit = "scenes"};
     all.count = [](std::uint64_t blocks) {
         std::uint64_t count = blocks * advance_families.size();
         for (const auto& f : families) count += scenes_in(f, blocks);

@@ -287,7 +287,7 @@ findings empty_findings(const std::vector<time_decider>& deciders, bool of_dista
 }
 
 part part_of(std::string name, std::vector<time_decider> deciders, bool of_distance) {
-    part all{.name = std::move(name), .unit = "queries", .version = family_names()};
+    part all{.name = std::move(name), .unit = "queries"};
     all.count = [](std::uint64_t blocks) { return 4 * queries_in(blocks, queries_per_block); };
     all.compare_block = [deciders = std::move(deciders), of_distance](std::uint64_t seed,
                                                                       std::uint64_t block) {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/ccd/contact/contact_data_faults.hpp"
 #include "tests/soak/parts.hpp"
-#include "tests/support/contact_data_faults.hpp"
 
 namespace soak {
 
@@ -88,7 +88,7 @@ std::vector<time_decider> distance_deciders();
 /// Queries of every family and all four kinds. The oracle checks the first decider's answer for
 /// t_max = 1 (tests/support/first_time_faults.hpp). First times are unique, so all others must
 /// agree. For any other t_max, the answer follows from the first time. Rationals check the data of
-/// contacts (tests/support/contact_data_faults.hpp). Then batches compute
+/// contacts (tests/ccd/contact/contact_data_faults.hpp). Then batches compute
 /// the first times of the block's queries with every instruction set. ccd::earliest computes
 /// that of the whole block, and of a few queries at a time. Tables: "family", the
 /// queries; "distance", the distances; "decider", all answers.

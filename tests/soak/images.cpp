@@ -28,7 +28,7 @@ bool sum_is_exact(double a, double b) {
 
 }  // namespace
 
-query_images::query_images(const ccd::lab::points& query, std::size_t count, splitmix& random) {
+query_images::query_images(const ccd::lab::points& query, std::size_t count, source& random) {
     std::array<std::array<std::array<double, 2>, 4>, 3> value{}, zero{};
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t i = 0; i < count; ++i)
@@ -83,7 +83,7 @@ void query_images::add_if_exact(std::size_t axis, image::form as, std::size_t co
     c.exact[static_cast<std::size_t>(c.exact_count++)] = as;
 }
 
-image query_images::draw(splitmix& random) const {
+image query_images::draw(source& random) const {
     image m;
     m.reversed = random.one_in(2);
     for (int last = 2; last > 0; --last)

@@ -13,26 +13,7 @@
 
 namespace soak {
 
-/// Random numbers with almost no cost of seeding (Steele, Lea, Flood 2014).
-class splitmix {
-  public:
-    explicit splitmix(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits() {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-        return z ^ (z >> 31);
-    }
-    /// low..high
-    int between(int low, int high) {
-        const auto range = static_cast<std::uint64_t>(high - low + 1);
-        return low + static_cast<int>((bits() >> 32) * range >> 32);
-    }
-    bool one_in(int n) { return between(1, n) == 1; }
-
-  private:
-    std::uint64_t state_;
-};
+using ccd::lab::source;
 
 /// A map of the query's space and time; every axis of the image comes from one of the query's.
 struct image {
@@ -54,9 +35,9 @@ std::string text_of(const image& m);
 class query_images {
   public:
     /// Uses the first `count` of the points.
-    query_images(const ccd::lab::points& query, std::size_t count, splitmix& random);
+    query_images(const ccd::lab::points& query, std::size_t count, source& random);
     /// A random image that is exact.
-    image draw(splitmix& random) const;
+    image draw(source& random) const;
     ccd::lab::points of(const image& m) const;
 
   private:

@@ -2,34 +2,15 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
-#include "ccd/lab/tables.hpp"
-#include "ccd/lab/timing.hpp"
 #include "errbound/support/ordered_blocks.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace soak {
 
-using nlohmann::json;
-
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(count_table::row, name, counts);
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(count_table, title, columns, largest, rows);
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(difference, text, file, lines);
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(findings, blocks, tables, different, differences, checksum);
-
-namespace {
-
 namespace fs = std::filesystem;
-using ccd::lab::clock, ccd::lab::seconds_since;
-
-ccd::lab::row dependencies_of(const part& of) {
-    return {{"part", of.name}, {"version", of.version}};
-}
-
-}  // namespace
 
 std::vector<std::uint64_t>& count_table::operator[](std::string_view name) {
     auto found = std::ranges::find(rows, name, &row::name);
@@ -48,6 +29,12 @@ const count_table& findings::table(std::string_view title) const {
 
 count_table& findings::table(std::string_view title) {
     return const_cast<count_table&>(std::as_const(*this).table(title));
+}
+
+bool findings::have(std::string_view fault) const {
+    return std::ranges::any_of(differences, [fault](const difference& d) {
+        return d.text.find(fault) != std::string::npos && d.text.find("0x1") != std::string::npos;
+    });
 }
 
 void findings::differ(difference d) {
@@ -87,70 +74,41 @@ std::uint64_t part::blocks_for(std::uint64_t questions) const {
     return low;
 }
 
-std::string to_json(const state& s, const part& of) {
-    json all = s.found;
-    all.update({{"seed", s.seed}, {"first", s.first}, {"seconds", s.seconds}});
-    return ccd::lab::kept_text(dependencies_of(of), all);
-}
+namespace {
 
-state from_json(const std::string& text, const part& of) {
-    const auto kept = ccd::lab::kept_value(text, dependencies_of(of));
-    if (!kept) throw std::runtime_error("the file is not the state of a run of these questions");
-    try {
-        const json all = *kept;
-        return {all.at("seed").get<std::uint64_t>(), all.at("first").get<std::uint64_t>(),
-                all.get<findings>(), all.at("seconds").get<double>()};
-    } catch (const json::exception& error) {
-        throw std::runtime_error(std::string("the file is not the state of a run: ") +
-                                 error.what());
-    }
-}
-
-fs::path state_path(const fs::path& folder) {
-    return folder / "state.json";
-}
-
-void save(const state& s, const part& of, const fs::path& folder) {
-    fs::create_directories(folder);
+/// Writes the files of differences, and removes those of an earlier run.
+void save(const std::vector<difference>& differences, const fs::path& folder) {
     std::map<std::string, std::string> files;
-    for (const difference& d : s.found.differences)
+    for (const difference& d : differences) {
+        files["differences.txt"] += d.text + "\n";
         if (!d.file.empty()) files[d.file] += d.lines;
+    }
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
         if (name.starts_with("differences") && !files.contains(name)) fs::remove(entry.path());
     }
     for (const auto& [name, lines] : files) errbound::support::write_whole(folder / name, lines);
-    errbound::support::write_whole(state_path(folder), to_json(s, of));
 }
 
-state run(state from, const run_options& options, const part& what, const std::atomic<int>& stop,
-          const std::function<void(const state&)>& show) {
+}  // namespace
+
+findings run(const run_options& options, const part& what, const std::atomic<int>& stop,
+             const std::function<void(const findings&)>& show) {
+    fs::create_directories(options.folder);
     // A folder that cannot be written to is refused now, not in an hour.
-    save(from, what, options.folder);
-    const clock::time_point start = clock::now();
-    const std::uint64_t first = what.blocks_for(from.first);
-    findings sum = from.found;
-    errbound::support::ordered_blocks<findings> blocks(
-        sum.blocks, options.blocks, options.threads,
-        [&](std::uint64_t block) { return what.compare_block(from.seed, first + block); },
-        [&](const findings& next) { sum.add(next); }, stop);
-    const auto now = [&] {
-        return state{from.seed, from.first, blocks.between_merges([&](auto) { return sum; }),
-                     from.seconds + seconds_since(start)};
+    errbound::support::write_whole(options.folder / "differences.txt", "");
+    findings sum;
+    const auto merge = [&](const findings& next) {
+        const std::size_t saved = sum.differences.size();
+        sum.add(next);
+        if (sum.differences.size() > saved) save(sum.differences, options.folder);
+        show(sum);
     };
-    clock::time_point saved = start;
-    while (!blocks.finished_within(std::chrono::milliseconds(100))) {
-        const state current = now();
-        if (seconds_since(saved) >= options.seconds_between_saves) {
-            save(current, what, options.folder);
-            saved = clock::now();
-        }
-        show(current);
-    }
-    const state last = now();
-    save(last, what, options.folder);
-    blocks.rethrow_failure();
-    return last;
+    errbound::support::merge_in_order(
+        options.first, options.end, options.threads,
+        [&](std::uint64_t block) { return what.compare_block(options.seed, block); }, merge, stop);
+    save(sum.differences, options.folder);
+    return sum;
 }
 
 }  // namespace soak

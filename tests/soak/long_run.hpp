@@ -1,9 +1,5 @@
-// A long run of comparisons on all cores. It can be stopped and resumed at any time without an
-// effect on its result.
-//
-// A run is a sequence of blocks. Block b of a seed has the same questions on every machine. The
-// state of a run is therefore the seed, the number of questions before its first block, and the
-// findings.
+// A long run of comparisons on all cores, a sequence of blocks. Block b of a seed has the same
+// questions on every machine, so that another run can continue where one stopped.
 #pragma once
 
 #include <atomic>
@@ -22,7 +18,6 @@ struct count_table {
     struct row {
         std::string name;
         std::vector<std::uint64_t> counts;  ///< one for each column
-        friend bool operator==(const row&, const row&) = default;
     };
     std::string title;  ///< heading of the rows' names
     std::vector<std::string> columns;
@@ -31,7 +26,6 @@ struct count_table {
 
     /// The counts of the row of that name. Adds the row if it does not exist.
     std::vector<std::uint64_t>& operator[](std::string_view name);
-    friend bool operator==(const count_table&, const count_table&) = default;
 };
 
 /// A question with a wrong answer.
@@ -39,7 +33,6 @@ struct difference {
     std::string text;        ///< all that is needed to repeat it, and the answers
     std::string file = {};   ///< the file to which `lines` are appended, if there is one
     std::string lines = {};  ///< in the format of the program `ccd`
-    friend bool operator==(const difference&, const difference&) = default;
 };
 
 struct findings {
@@ -58,17 +51,15 @@ struct findings {
     count_table& table(std::string_view title);
     /// Counts the difference and keeps it if there is room.
     void differ(difference d);
+    /// True if the text of a difference has this fault and hexadecimal floats, for a replay.
+    bool have(std::string_view fault) const;
     void stir(std::uint64_t answer) { checksum = (checksum ^ answer) * 0x100000001b3; }
-
-    friend bool operator==(const findings&, const findings&) = default;
 };
 
 /// The comparison that a run repeats.
 struct part {
     std::string name;  ///< "symmetries"
     std::string unit;  ///< what is counted: "queries"
-    /// version of the questions, such as names of families; states of other versions are rejected
-    std::string version = {};
     /// Compares all answers of one block. Several threads call it at a time.
     std::function<findings(std::uint64_t seed, std::uint64_t block)> compare_block = {};
     /// The number of questions in the first blocks.
@@ -78,38 +69,19 @@ struct part {
     std::uint64_t blocks_for(std::uint64_t questions) const;
 };
 
-struct state {
-    std::uint64_t seed = 1;
-    std::uint64_t first = 0;  ///< the number of questions before the first block of the run
-    findings found = {};
-    double seconds = 0;  ///< total over all sittings
-    friend bool operator==(const state&, const state&) = default;
-};
-
-/// Convert the state to JSON and back. from_json throws std::runtime_error if the text is not a
-/// state, or is one of other questions.
-std::string to_json(const state& s, const part& of);
-state from_json(const std::string& text, const part& of);
-
-/// The file of a run's state; files of differing queries lie next to it.
-std::filesystem::path state_path(const std::filesystem::path& folder);
-
-/// Writes the state atomically, and the files of differences if there are any; removes those of an
-/// earlier run. Throws errbound::support::file_error.
-void save(const state& s, const part& of, const std::filesystem::path& folder);
-
 struct run_options {
-    std::uint64_t blocks = 0;  ///< total, including resumed ones
-    unsigned threads = 0;      ///< 0: one per core
+    std::uint64_t seed = 1;
+    std::uint64_t first = 0, end = 0;  ///< blocks
+    unsigned threads = 0;              ///< 0: one per core
     std::filesystem::path folder = {};
-    double seconds_between_saves = 30;
 };
 
-/// Continues `from` until all blocks are done or `stop` is not 0; saves periodically and at the
-/// end. Findings are added in the order of blocks, so the result depends only on the seed and the
-/// number of blocks. `show` is called about ten times a second, on the calling thread. Throws what
-/// the part or save throws.
-state run(state from, const run_options& options, const part& what, const std::atomic<int>& stop,
-          const std::function<void(const state&)>& show);
+/// Compares blocks until `end`, or until `stop` is not 0. Findings are added in the order of
+/// blocks, so the result depends only on the seed and the blocks. The folder has the texts of
+/// differences in differences.txt, and differing queries in the files that they name. `show` is
+/// called about ten times a second, on the calling thread. Throws what the part throws, and
+/// errbound::support::file_error.
+findings run(const run_options& options, const part& what, const std::atomic<int>& stop,
+             const std::function<void(const findings&)>& show);
 
 }  // namespace soak

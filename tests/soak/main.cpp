@@ -3,16 +3,14 @@
 // FLINT; predicates against oracles.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "errbound/support/command.hpp"
-#include "errbound/support/output_file.hpp"
 #include "errbound/support/program.hpp"
 #include "errbound/support/progress_line.hpp"
 #include "errbound/support/rows.hpp"
@@ -36,33 +34,32 @@ std::string duration(double seconds) {
     return std::to_string(static_cast<std::uint64_t>(seconds)) + " s";
 }
 
-std::uint64_t questions_of(const part& of, std::uint64_t first, std::uint64_t blocks) {
-    const std::uint64_t before = of.blocks_for(first);
-    return of.count(before + blocks) - of.count(before);
-}
-std::uint64_t questions_of(const part& of, const state& s) {
-    return questions_of(of, s.first, s.found.blocks);
-}
-
 /// A progress bar on a terminal; otherwise a line every half minute.
 class progress_display {
   public:
-    progress_display(const part& of, const state& from, std::uint64_t blocks)
-        : of_(of), from_(from), all_(questions_of(of, from.first, blocks)) {}
+    progress_display(const part& of, const run_options& options) : of_(of), options_(options) {}
 
-    void operator()(const state& now) {
-        const double here = now.seconds - from_.seconds;
+    /// The number of questions in the first `blocks` blocks of the run.
+    std::uint64_t questions(std::uint64_t blocks) const {
+        return of_.count(options_.first + blocks) - of_.count(options_.first);
+    }
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+    void operator()(const findings& now) {
         const bool is_terminal = errbound::support::system::is_terminal(2);
+        const double here = seconds();
         if (here < shown_ + (is_terminal ? 0.5 : 30)) return;
         shown_ = here;
-        const std::uint64_t done = questions_of(of_, now);
-        const double rate = static_cast<double>(done - questions_of(of_, from_)) / here;
-        const double share = static_cast<double>(done) / static_cast<double>(all_);
+        const std::uint64_t done = questions(now.blocks),
+                            all = questions(options_.end - options_.first);
+        const double rate = static_cast<double>(done) / here;
+        const double share = static_cast<double>(done) / static_cast<double>(all);
         const std::string text =
-            grouped(done) + " of " + grouped(all_) + " " + of_.unit + ", " +
-            grouped(static_cast<std::uint64_t>(rate)) + " a second, " +
-            grouped(now.found.different) + " differ, " +
-            (rate > 0 ? duration(static_cast<double>(all_ - done) / rate) : "?") + " left";
+            grouped(done) + " of " + grouped(all) + " " + of_.unit + ", " +
+            grouped(static_cast<std::uint64_t>(rate)) + " a second, " + grouped(now.different) +
+            " differ, " + (rate > 0 ? duration(static_cast<double>(all - done) / rate) : "?") +
+            " left";
         if (is_terminal) return bar_.show(share, text);
         std::printf("%5.1f %%  %s\n", 100 * share, text.c_str());
         std::fflush(stdout);
@@ -70,10 +67,10 @@ class progress_display {
 
   private:
     const part& of_;
-    state from_;
-    std::uint64_t all_;
+    const run_options& options_;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     errbound::support::progress_line bar_;
-    double shown_ = 0;  // seconds of this sitting
+    double shown_ = 0;
 };
 
 /// The table with each row's share of the first column, and the sum of all rows.
@@ -94,66 +91,33 @@ std::string text_of(const count_table& counts) {
     return errbound::support::text_of(all);
 }
 
-void report(const part& of, const state& s, const fs::path& folder) {
-    for (const count_table& table : s.found.tables) std::printf("\n%s", text_of(table).c_str());
-    for (std::size_t i = 0; i < s.found.differences.size() && i < 10; ++i)
-        std::printf("\n%s", s.found.differences[i].text.c_str());
-    std::printf("\nseed %ju: %s %s in %s, %s differ, checksum %016jx\n", std::uintmax_t{s.seed},
-                grouped(questions_of(of, s)).c_str(), of.unit.c_str(), duration(s.seconds).c_str(),
-                grouped(s.found.different).c_str(), std::uintmax_t{s.found.checksum});
+void report(const findings& found, const fs::path& folder) {
+    for (const count_table& table : found.tables) std::printf("\n%s", text_of(table).c_str());
+    for (std::size_t i = 0; i < found.differences.size() && i < 10; ++i)
+        std::printf("\n%s", found.differences[i].text.c_str());
     for (const auto which : ccd::stored_kinds) {
         const fs::path path = folder / ("differences-" + std::string(short_name(which)) + ".csv");
         if (fs::exists(path))
             std::printf("differing queries, the reference's answer as truth: ccd query %s\n",
                         path.string().c_str());
     }
-    if (s.found.different > s.found.differences.size())
+    if (found.different > found.differences.size())
         std::printf("only the first %s of them are kept\n",
-                    grouped(s.found.differences.size()).c_str());
-    std::printf("state, with all that differ: %s\n", state_path(folder).string().c_str());
+                    grouped(found.differences.size()).c_str());
+    if (found.different > 0)
+        std::printf("all that differ: %s\n", (folder / "differences.txt").string().c_str());
 }
 
 struct command_line {
-    std::uint64_t count = 20'000'000;
+    std::uint64_t count = 20'000'000, first = 0;
     std::function<soak::part()> part;
     std::string predicate;
     run_options options;
-    std::optional<std::uint64_t> seed, first;
-    bool resume = false, anew = false;
 };
-
-/// The initial state of the run. Given options must agree with a resumed state.
-state begin(const part& of, const command_line& given) {
-    const fs::path path = state_path(given.options.folder);
-    if (!given.resume) {
-        if (fs::exists(path))
-            throw std::runtime_error(path.string() +
-                                     " is the state of a run; expected --resume, to continue "
-                                     "it, or --anew, to forget it");
-        return {.seed = given.seed.value_or(1), .first = given.first.value_or(0)};
-    }
-    state s;
-    const std::string text = errbound::support::read_whole(path);
-    try {
-        s = from_json(text, of);
-    } catch (const std::runtime_error& error) {
-        throw std::runtime_error(path.string() + ": " + error.what());
-    }
-    const auto require_same = [&](const char* name, std::uint64_t found, auto expected) {
-        if (expected && found != *expected)
-            throw std::runtime_error(path.string() + ": " + name + " is " + std::to_string(found) +
-                                     "; expected the given one, " + std::to_string(*expected));
-    };
-    require_same("seed", s.seed, given.seed);
-    require_same("first", s.first, given.first);
-    return s;
-}
 
 void add_parts(CLI::App& app, command_line& given) {
     CLI::Option* const queries =
-        app.add_option("--queries", given.count,
-                       "At least that many, a resumed run's earlier ones included")
-            ->capture_default_str();
+        app.add_option("--queries", given.count, "At least that many")->capture_default_str();
     CLI::Option_group& parts = *app.add_option_group("Instead");
     parts.require_option(0, 1);
     const auto of_queries = [&](const char* name, const char* what, auto part) {
@@ -198,21 +162,19 @@ void add_parts(CLI::App& app, command_line& given) {
 
 void add_options(CLI::App& app, command_line& given) {
     add_parts(app, given);
-    app.add_option("--seed", given.seed, "Same seed, same questions; 1 by default")
+    app.add_option("--seed", given.options.seed, "Same seed, same questions")
+        ->capture_default_str()
         ->check(errbound::support::checked_seed);
     app.add_option(
            "--first", given.first,
            "Skip the first N questions of the seed's sequence. Runs with --first 0, M, 2M, ...\n"
            "and M questions each partition one long run")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40));
-    app.add_flag("--resume", given.resume, "Go on where the last run stopped");
-    app.add_flag("--anew", given.anew, "Forget the last run")->excludes("--resume");
     app.add_option("--threads", given.options.threads, "0: one per core")->capture_default_str();
-    app.add_option("--folder", given.options.folder,
-                   "For the state and what differs; by default out/soak/PART");
+    app.add_option("--folder", given.options.folder, "For what differs; by default out/soak/PART");
     app.footer(
         "Exit status: 0 no difference, 1 a difference or bad input, 2 bad usage, 3 stopped "
-        "by a signal (go on with --resume).");
+        "by a signal (the last line has the options that continue).");
 }
 
 /// Runs the part to its end or until a signal; returns the exit status. Throws std::runtime_error.
@@ -220,26 +182,25 @@ int run_part(command_line& given) {
     const part of = given.part();
     run_options& options = given.options;
     if (options.folder.empty()) options.folder = fs::path("out/soak") / of.name;
-    if (given.anew) fs::remove(state_path(options.folder));
-    const state from = begin(of, given);
-    options.blocks = of.blocks_for(from.first + given.count) - of.blocks_for(from.first);
-    const errbound::support::awaited_signals signals("soak: stopping; --resume goes on\n");
-    std::printf("%s, seed %ju: %s of %s %s done\n", of.name.c_str(), std::uintmax_t{from.seed},
-                grouped(questions_of(of, from)).c_str(),
-                grouped(questions_of(of, from.first, options.blocks)).c_str(), of.unit.c_str());
+    options.first = of.blocks_for(given.first);
+    options.end = of.blocks_for(given.first + given.count);
+    const errbound::support::awaited_signals signals("soak: stopping\n");
+    progress_display display(of, options);
+    std::printf("%s, seed %ju: %s %s\n", of.name.c_str(), std::uintmax_t{options.seed},
+                grouped(display.questions(options.end - options.first)).c_str(), of.unit.c_str());
     std::fflush(stdout);
-    state last;
-    {
-        progress_display display(of, from, options.blocks);
-        last = run(from, options, of, signals.arrived(), std::ref(display));
-    }
-    report(of, last, options.folder);
-    if (last.found.different > 0) return 1;
-    if (last.found.blocks < options.blocks) {
-        std::printf("stopped by signal %d; --resume goes on\n", signals.arrived().load());
-        return 3;
-    }
-    return 0;
+    const findings found = run(options, of, signals.arrived(), std::ref(display));
+    report(found, options.folder);
+    std::printf("\nseed %ju: %s %s in %s, %s differ, checksum %016jx\n",
+                std::uintmax_t{options.seed}, grouped(display.questions(found.blocks)).c_str(),
+                of.unit.c_str(), duration(display.seconds()).c_str(),
+                grouped(found.different).c_str(), std::uintmax_t{found.checksum});
+    const std::uint64_t next = options.first + found.blocks;
+    if (next < options.end)
+        std::printf("stopped by signal %d; what is left: --first %ju, and %ju %s\n",
+                    signals.arrived().load(), std::uintmax_t{of.count(next)},
+                    std::uintmax_t{of.count(options.end) - of.count(next)}, of.unit.c_str());
+    return found.different > 0 ? 1 : next < options.end ? 3 : 0;
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ ccd::step_result exact_step(const two_frames& at, int threads, bool counted) {
 }
 
 part mesh_part(stepper step) {
-    part all{.name = "meshes", .unit = "meshes", .version = family_names()};
+    part all{.name = "meshes", .unit = "meshes"};
     all.count = [](std::uint64_t blocks) { return blocks + queries_in(blocks, 1); };
     all.compare_block = [step = std::move(step)](std::uint64_t seed, std::uint64_t block) {
         return compare_block(seed, block, step);

@@ -22,8 +22,6 @@ namespace soak {
 // ---- Queries of families ----
 
 std::string row_name(const query_families::family& family);
-/// The families' names, for part::version.
-std::string family_names();
 
 /// The first index of `family` after `blocks` blocks of `per_block` queries. Families that cost the
 /// reference tenths of a second have fewer.

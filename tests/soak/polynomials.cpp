@@ -143,9 +143,7 @@ findings compare_block(std::uint64_t seed, std::uint64_t block) {
 
 part polynomial_part() {
     part all{.name = "polynomials", .unit = "polynomials"};
-    const auto sources = all_sources();
-    for (const auto& source : sources) all.version += source.name + "; ";
-    all.count = [count = sources.size()](std::uint64_t blocks) {
+    all.count = [count = all_sources().size()](std::uint64_t blocks) {
         return blocks * count * polynomials_per_block;
     };
     all.compare_block = compare_block;

@@ -206,8 +206,6 @@ findings empty_findings() {
 
 part predicate_part(const std::string& name) {
     part all{.name = "predicates", .unit = "inputs"};
-    for_each_predicate(name,
-                       [&](const auto& entry) { all.version.append(entry.name).append("; "); });
     all.count = [](std::uint64_t blocks) { return blocks * inputs_per_block; };
     all.compare_block = [name](std::uint64_t seed, std::uint64_t block) {
         findings out = empty_findings();

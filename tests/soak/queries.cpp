@@ -136,12 +136,6 @@ count_table family_table(std::vector<std::string> columns) {
     return table;
 }
 
-std::string family_names() {
-    std::string names;
-    for (const auto& f : families) names += row_name(f) + "; ";
-    return names;
-}
-
 std::string row_name(const query_families::family& family) {
     std::string name(family.name);
     if (thinning(family) > 1) name += ", 1 in " + std::to_string(thinning(family));
@@ -149,7 +143,7 @@ std::string row_name(const query_families::family& family) {
 }
 
 part comparison_part(decider truth, std::vector<decider> deciders) {
-    part all{.name = "comparison", .unit = "queries", .version = family_names()};
+    part all{.name = "comparison", .unit = "queries"};
     all.count = [](std::uint64_t blocks) {
         return ccd::stored_kinds.size() * queries_in(blocks, queries_per_block);
     };

@@ -1,115 +1,70 @@
-"""The soak program as users run it: stopped by signals and resumed, with the report of an uninterrupted run.
+"""The soak program as users run it: ranges, and runs that signals stop, together have the counts of the whole run.
 
-    SOAK_PROGRAM=build/tests/soak/errbound_soak python3 soak_program_test.py
+    PYTHONPATH=tests/support SOAK_PROGRAM=build/tests/soak/errbound_soak python3 tests/soak/soak_program_test.py
 """
 
-import json
 import os
+import re
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 from collections import Counter
-from pathlib import Path
 
-PROGRAM = os.environ["SOAK_PROGRAM"]
+from program import ProgramTest
 
 
-class StopAndResume(unittest.TestCase):
+class Soak(ProgramTest):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
+        super().setUp()
+        self.command = [os.environ["SOAK_PROGRAM"], "--folder", self.directory]
 
-    def command(self, name, queries, *options):
-        folder = str(Path(self.folder.name) / name)
-        return [PROGRAM, "--folder", folder, "--queries", str(queries), *options]
-
-    def state(self, name):
-        state = json.loads((Path(self.folder.name) / name / "state.json").read_text())["value"]
-        del state["seconds"]
-        return state
-
-    def stop_and_resume(self, queries, *options):
-        whole = subprocess.run(
-            self.command("whole", queries, *options), capture_output=True, text=True
-        )
-        self.assertEqual(whole.returncode, 0, whole.stdout + whole.stderr)
-        self.assertIn("seed 1: ", whole.stdout)
-        self.assertIn(" 0 differ, checksum ", whole.stdout)
-
-        stopped, more = 0, ["--threads", "1"]
-        for sent in [signal.SIGINT, signal.SIGTERM] * 50:
-            command = self.command("parts", queries, *options, *more)
-            part = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-            part.stdout.readline()  # wait for the start
-            time.sleep(0.1)
-            part.send_signal(sent)
-            text = part.stdout.read()
-            part.stdout.close()
-            more = ["--resume"]
-            if part.wait() == 0:
-                break
-            self.assertEqual(part.returncode, 3, text)
-            self.assertIn("--resume goes on", text)
-            stopped += 1
-        self.assertEqual(part.returncode, 0)
-        self.assertGreater(stopped, 0)
-        self.assertEqual(self.state("parts"), self.state("whole"))
-
-    def test_comparison(self):
-        self.stop_and_resume(8000)
-
-    def test_symmetries(self):
-        self.stop_and_resume(600000, "--symmetries")
-
-    def counts(self, name):
-        """The counts of a run by table and row, and the number of blocks."""
-        state = self.state(name)
-        self.assertEqual(state["different"], 0)
-        counts = Counter(blocks=state["blocks"])
-        for table in state["tables"]:
-            for row in table["rows"]:
-                for column, count in zip(table["columns"], row["counts"]):
-                    counts[table["title"], row["name"], column] += count
+    def counts(self, text):
+        """Returns the counts that a run printed, by row."""
+        self.assertIn(" 0 differ, checksum ", text)
+        counts = Counter()
+        for line in text.splitlines():
+            name, *cells = re.split(r"\s{2,}", line.strip())
+            for column, cell in enumerate(cells[:-1]):  # the last one is a share
+                if re.fullmatch(r"[\d,]+", cell):
+                    counts[name, column] += int(cell.replace(",", ""))
+        self.assertGreater(len(counts), 50)
         return counts
+
+    def run_whole(self, *options):
+        return self.counts(self.good(*options))
 
     def test_ranges_together_make_the_whole_run(self):
         for part, ranges in ((), (0, 4000, 8000)), (("--symmetries",), (0, 200000, 300000, 600000)):
             with self.subTest(part=part):
-                whole = f"whole{len(part)}"
-                subprocess.run(
-                    self.command(whole, ranges[-1], *part), check=True, capture_output=True
-                )
-                total = Counter()
-                for first, end in zip(ranges, ranges[1:]):
-                    name = f"{whole}-{first}"
-                    command = self.command(name, end - first, "--first", str(first), *part)
-                    subprocess.run(command, check=True, capture_output=True)
-                    total += self.counts(name)
-                self.assertEqual(total, +self.counts(whole))
+                total = sum((self.run_whole("--first", first, "--queries", end - first, *part)
+                             for first, end in zip(ranges, ranges[1:])), Counter())
+                self.assertEqual(total, +self.run_whole("--queries", ranges[-1], *part))
 
-    def test_unfinished_run_is_not_overwritten(self):
-        command = self.command("once", 1)
-        self.assertEqual(subprocess.run(command, capture_output=True).returncode, 0)
-        again = subprocess.run(command, capture_output=True, text=True)
-        self.assertEqual(again.returncode, 1)
-        self.assertIn("--resume", again.stderr)
-        other_seed = subprocess.run(
-            command + ["--resume", "--seed", "2"], capture_output=True, text=True
-        )
-        self.assertEqual(other_seed.returncode, 1)
-        self.assertIn("seed is 1; expected the given one, 2", other_seed.stderr)
-        other_range = subprocess.run(
-            command + ["--resume", "--first", "5"], capture_output=True, text=True
-        )
-        self.assertEqual(other_range.returncode, 1)
-        self.assertIn("first is 0; expected the given one, 5", other_range.stderr)
+    def test_stopped_runs_are_continued(self):
+        for part, queries in ((), 8000), (("--symmetries",), 600000):
+            total, left, stopped = Counter(), ["--queries", str(queries)], 0
+            for sent in [signal.SIGINT, signal.SIGTERM] * 50:
+                run = subprocess.Popen([*self.command, *part, *left, "--threads", "1"], stdout=subprocess.PIPE, text=True)
+                run.stdout.readline()  # wait for the start
+                time.sleep(0.2)
+                run.send_signal(sent)
+                text = run.stdout.read()
+                run.stdout.close()
+                total += self.counts(text)
+                if run.wait() == 0:
+                    break
+                self.assertEqual(run.returncode, 3, text)
+                first, count = re.search(r"what is left: --first (\d+), and (\d+) queries", text).groups()
+                left = ["--first", first, "--queries", count]
+                stopped += 1
+            self.assertEqual(run.returncode, 0)
+            self.assertGreater(stopped, 0)
+            self.assertEqual(total, +self.run_whole("--queries", queries, *part))
 
     def test_bad_usage(self):
-        for options in (["many"], [1, "--unknown"]):
-            command = self.command("none", *options)
-            self.assertEqual(subprocess.run(command, capture_output=True).returncode, 2)
+        for options in (["--queries", "many"], ["--unknown"]):
+            self.refused(2, "", *options)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,4 @@
-// The soak detects a wrong answer and writes it out for a replay. A run that is stopped and resumed
-// has the result of an uninterrupted one.
+// The soak detects a wrong answer and writes it out for a replay.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -82,24 +81,23 @@ std::uint64_t count(const soak::findings& found, std::string_view table, std::st
 
 constexpr std::uint64_t few_blocks = 3;
 
-soak::state run(const soak::state& from, const fs::path& folder, const soak::part& what,
-                const std::atomic<int>& stop = 0) {
-    return soak::run(from, {.blocks = few_blocks, .threads = 2, .folder = folder}, what, stop,
-                     [](const soak::state&) {});
+soak::findings run(std::uint64_t seed, const fs::path& folder, const soak::part& what) {
+    return soak::run({.seed = seed, .end = few_blocks, .threads = 2, .folder = folder}, what, 0,
+                     [](const soak::findings&) {});
 }
 
 TEST_F(soak_test, exact_does_not_differ) {
     const auto deciders = soak::exact_deciders();
     const soak::part part = soak::comparison_part(soak::reference(), deciders);
-    const soak::state s = run({.seed = 3}, folder, part);
-    EXPECT_EQ(s.found.blocks, few_blocks);
+    const soak::findings found = run(3, folder, part);
+    EXPECT_EQ(found.blocks, few_blocks);
     ASSERT_GE(deciders.size(), 3u);
     for (const auto& d : deciders) {
-        EXPECT_EQ(count(s.found, "against the reference", d.name, 1), 0u) << d.name;
-        EXPECT_EQ(count(s.found, "against the reference", d.name, 0), part.count(few_blocks))
+        EXPECT_EQ(count(found, "against the reference", d.name, 1), 0u) << d.name;
+        EXPECT_EQ(count(found, "against the reference", d.name, 0), part.count(few_blocks))
             << d.name;
     }
-    EXPECT_EQ(s.found.different, 0u);
+    EXPECT_EQ(found.different, 0u);
     EXPECT_FALSE(fs::exists(folder / "differences-vf.csv"));
 }
 
@@ -120,8 +118,8 @@ TEST_F(soak_test, wrong_deciders_are_found_out) {
 }
 
 TEST_F(soak_test, differing_queries_are_written_to_be_replayed) {
-    const soak::state s =
-        run({.seed = 7}, folder, soak::comparison_part(exact(), {by_method(ccd::method::float_)}));
+    const soak::findings found =
+        run(7, folder, soak::comparison_part(exact(), {by_method(ccd::method::float_)}));
     std::size_t read = 0;
     for (const kind which : ccd::stored_kinds) {
         const auto file = ccd::io::read_queries(
@@ -138,40 +136,13 @@ TEST_F(soak_test, differing_queries_are_written_to_be_replayed) {
             EXPECT_EQ((*file.truth)[i], exact.outcome == ccd::outcome::collides);
         }
     }
-    EXPECT_EQ(read, s.found.different);
+    EXPECT_EQ(read, found.different);
     EXPECT_GT(read, 0u);
-}
-
-TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
-    const std::vector<soak::decider> deciders{by_method(ccd::method::exact),
-                                              by_method(ccd::method::float_)};
-    const soak::part part = soak::comparison_part(exact(), deciders);
-    const soak::state whole = run({.seed = 5}, folder / "whole", part);
-
-    // The run stops after every few queries and resumes from the file each time.
-    soak::state s{.seed = 5};
-    int sittings = 0;
-    for (; s.found.blocks < few_blocks; ++sittings) {
-        std::atomic<int> stop = 0;
-        soak::part stopping = part;
-        stopping.compare_block = [&](std::uint64_t seed, std::uint64_t block) {
-            stop = 1;
-            return part.compare_block(seed, block);
-        };
-        run(s, folder / "parts", stopping, stop);
-        s = soak::from_json(errbound::support::read_whole(soak::state_path(folder / "parts")),
-                            part);
-    }
-    EXPECT_GT(sittings, 1);
-    EXPECT_EQ(s.found, whole.found);
-    for (const char* name : {"differences-vf.csv", "differences-ee.csv"})
-        EXPECT_EQ(errbound::support::read_whole(folder / "parts" / name),
-                  errbound::support::read_whole(folder / "whole" / name));
 }
 
 // Integers can be moved, sheared and scaled without rounding; arbitrary doubles can only be scaled.
 TEST_F(soak_test, images_are_of_every_form_where_they_are_exact) {
-    soak::splitmix random(1);
+    ccd::lab::source random(1);
     const auto forms_of = [&](std::string_view name) {
         const auto& family =
             *std::ranges::find(query_families::families, name, &query_families::family::name);
@@ -199,15 +170,15 @@ TEST_F(soak_test, images_are_of_every_form_where_they_are_exact) {
 
 TEST_F(soak_test, images_of_a_query_have_one_answer) {
     const soak::part part = soak::symmetry_part(soak::symmetric_deciders());
-    const soak::state s = run({.seed = 3}, folder, part);
-    EXPECT_EQ(s.found.different, 0u) << s.found.differences.at(0).text;
+    const soak::findings found = run(3, folder, part);
+    EXPECT_EQ(found.different, 0u) << found.differences.at(0).text;
     std::uint64_t answers = 0;
-    for (const auto& d : soak::exact_deciders()) answers += count(s.found, "decider", d.name, 0);
+    for (const auto& d : soak::exact_deciders()) answers += count(found, "decider", d.name, 0);
     EXPECT_EQ(answers, part.count(few_blocks));
     // Late stages decide, too, and `tight` is certain at times.
-    EXPECT_GT(count(s.found, "decided by", "integers", 0), answers / 10);
-    EXPECT_GT(count(s.found, "decided by", "unbounded", 0), 0u);
-    EXPECT_LT(count(s.found, "decider", "tight", 1), count(s.found, "decider", "tight", 0));
+    EXPECT_GT(count(found, "decided by", "integers", 0), answers / 10);
+    EXPECT_GT(count(found, "decided by", "unbounded", 0), 0u);
+    EXPECT_LT(count(found, "decider", "tight", 1), count(found, "decider", "tight", 0));
 }
 
 TEST_F(soak_test, one_answer_turned_round_among_thousands_is_found) {
@@ -221,8 +192,7 @@ TEST_F(soak_test, one_answer_turned_round_among_thousands_is_found) {
         });
     const soak::findings found = soak::symmetry_part({exact(), once}).compare_block(1, 0);
     EXPECT_EQ(found.different, 1u);
-    EXPECT_NE(found.differences.at(0).text.find("wrong once returns"), std::string::npos);
-    EXPECT_NE(found.differences.at(0).text.find("0x1"), std::string::npos);  // hexadecimal floats
+    EXPECT_TRUE(found.have("wrong once returns"));
 }
 
 TEST_F(soak_test, rounding_methods_contradict_themselves_on_images) {
@@ -257,20 +227,7 @@ TEST_F(soak_test, a_throwing_decider_ends_the_run) {
     throwing.decide.vertex_face = [](const auto&, auto) -> ccd::stage_report {
         throw std::runtime_error("as expected");
     };
-    EXPECT_THROW(run({.seed = 1}, folder, soak::comparison_part(exact(), {throwing})),
-                 std::runtime_error);
-}
-
-TEST_F(soak_test, states_that_cannot_be_resumed_are_refused) {
-    const soak::part part = soak::comparison_part(exact(), {});
-    const std::string good = soak::to_json({.seed = 1}, part);
-    EXPECT_EQ(soak::from_json(good, part), soak::state{.seed = 1});
-    std::string other = good;
-    other.replace(other.find("uniform"), 7, "unknown");
-    for (const std::string& bad : {other, std::string("{}"), std::string(), std::string("[1]")}) {
-        EXPECT_THROW(soak::from_json(bad, part), std::runtime_error) << bad;
-    }
-    EXPECT_THROW(soak::from_json(good, soak::symmetry_part({})), std::runtime_error);
+    EXPECT_THROW(run(1, folder, soak::comparison_part(exact(), {throwing})), std::runtime_error);
 }
 
 TEST_F(soak_test, as_many_blocks_as_queries_need) {

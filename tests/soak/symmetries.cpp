@@ -51,7 +51,7 @@ class block_of_kind {
                   findings& out)
         : seed_(seed), block_(block), deciders_(deciders), out_(out) {
         queries_ = block_queries(seed, block, queries_per_block(K), K);
-        splitmix random(seed * 0x100000001b3 + block * 4 + static_cast<std::uint64_t>(K));
+        source random(seed * 0x100000001b3 + block * 4 + static_cast<std::uint64_t>(K));
         query_list<K> themselves;
         for (const family_query& q : queries_) {
             images_.emplace_back(q.at, point_count, random);
@@ -88,8 +88,8 @@ class block_of_kind {
 
     template <kind As>
     image_list<As> images_for(std::size_t d, const image_counts& counts) const {
-        splitmix random(((seed_ * 0x100000001b3 + block_) * 64 + d) * 16 +
-                        static_cast<std::uint64_t>(K) * 4 + static_cast<std::uint64_t>(As));
+        source random(((seed_ * 0x100000001b3 + block_) * 64 + d) * 16 +
+                      static_cast<std::uint64_t>(K) * 4 + static_cast<std::uint64_t>(As));
         const auto slots = slot_maps(K, As);
         image_list<As> all;
         for (const query_images& of : images_) {
@@ -202,7 +202,7 @@ std::uint64_t answers_per_query(const std::vector<decider>& deciders) {
 }  // namespace
 
 part symmetry_part(std::vector<decider> deciders) {
-    part all{.name = "symmetries", .unit = "queries", .version = family_names()};
+    part all{.name = "symmetries", .unit = "queries"};
     std::uint64_t per_query[4];
     ccd::for_each_kind(
         [&]<kind K>() { per_query[static_cast<std::size_t>(K)] = answers_per_query<K>(deciders); });

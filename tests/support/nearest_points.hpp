@@ -3,14 +3,22 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/multiprecision/gmp.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
+#include <ccd/methods/transform.hpp>
 #include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "tests/support/special_values.hpp"
+
 namespace support {
+
+using ::rational;
+using real = boost::multiprecision::number<boost::multiprecision::gmp_float<120>,
+                                           boost::multiprecision::et_off>;
 
 template <class S>
 using vector = std::array<S, 3>;
@@ -30,6 +38,38 @@ template <class S>
 vector<S> cross(const vector<S>& a, const vector<S>& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+
+inline bool is_zero(const vector<rational>& a) {
+    return a[0] == 0 && a[1] == 0 && a[2] == 0;
+}
+template <class S = rational>
+vector<S> of(const ccd::point<double>& p) {
+    return {S(p.x), S(p.y), S(p.z)};
+}
+/// Precondition: a is not zero.
+inline vector<real> unit(const vector<rational>& a) {
+    // Divides by the largest first, so that every size is in range.
+    rational largest = 0;
+    for (const rational& x : a)
+        if (abs(x) > largest) largest = abs(x);
+    vector<real> r;
+    for (std::size_t i = 0; i < 3; ++i) r[i] = real(rational(a[i] / largest));
+    const real length = sqrt(dot(r, r));
+    return {r[0] / length, r[1] / length, r[2] / length};
+}
+
+/// The points of a query at a time, and their velocities.
+struct moment {
+    std::vector<vector<rational>> at, velocity;
+
+    template <class Query>
+    moment(const Query& query, const rational& t) {
+        for (const auto& p : points_of(query)) {
+            velocity.push_back(of(p.t1) - of(p.t0));
+            at.push_back(of(p.t0) - rational(-t) * velocity.back());
+        }
+    }
+};
 
 /// All features between which a distance can be attained, the smallest first, in the order of
 /// ccd/nearness.hpp.

@@ -1,10 +1,14 @@
 // Seeded families of random queries, from plain to hostile, the same with every standard library.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "ccd/lab/generators.hpp"
@@ -25,6 +29,171 @@ struct family {
 namespace detail {
 
 using namespace generators;
+
+// The sign of every exponent below is drawn: 2^exponent or 2^-exponent.
+inline int either_sign(source& random, int exponent) {
+    return random.one_in(2) ? exponent : -exponent;
+}
+
+inline points scale(source& random, const points& p, int exponent) {
+    const int drawn = either_sign(random, exponent);
+    return map(p, [&](double x, auto...) { return std::ldexp(x, drawn); });
+}
+
+inline points scale_axis(source& random, const points& p, int exponent) {
+    const int drawn = either_sign(random, exponent);
+    const auto scaled = static_cast<std::size_t>(random.between(0, 2));
+    return map(p, [&](double x, std::size_t, std::size_t, std::size_t axis) {
+        return axis == scaled ? std::ldexp(x, drawn) : x;
+    });
+}
+
+inline points scale_point(source& random, const points& p, int exponent) {
+    const int drawn = either_sign(random, exponent);
+    const auto scaled = static_cast<std::size_t>(random.between(0, 3));
+    return map(p, [&](double x, std::size_t point, auto...) {
+        return point == scaled ? std::ldexp(x, drawn) : x;
+    });
+}
+
+inline points clustered(source& random) {
+    const position centre{random.symmetric(), random.symmetric(), random.symmetric()};
+    return fill([&](std::size_t, std::size_t, std::size_t axis) {
+        return centre[axis] + std::ldexp(random.symmetric(), -10);
+    });
+}
+
+// Quarter turns about one axis, either way. The cubics have extrema and an inflection inside.
+inline points rotating(source& random) {
+    points p = uniform(random);
+    for (auto& m : p) {
+        const double lift = 0.25 * random.symmetric();
+        const double grow = 1 + 0.25 * random.symmetric();
+        m.t1 = {-grow * m.t0.y, grow * m.t0.x, m.t0.z + lift};
+        if (random.one_in(2)) std::swap(m.t0, m.t1);
+    }
+    return p;
+}
+
+// Multiples of the least positive double.
+inline points subnormal(source& random) {
+    const int size = random.between(1, 16);
+    return fill(
+        [&](auto...) { return std::ldexp(random.between(-(1 << size), 1 << size), -1074); });
+}
+
+inline points any_bits(source& random) {
+    return fill([&](auto...) {
+        for (;;) {
+            const auto x = std::bit_cast<double>(random.bits());
+            if (std::isfinite(x)) return x;
+        }
+    });
+}
+
+// Powers of two of every size, so that one query holds many scales.
+inline points mixed_scales(source& random, int range) {
+    return fill([&](auto...) {
+        const int factor = random.between(-2, 2);
+        return std::ldexp(factor, random.between(-range, range));
+    });
+}
+
+inline points rounded_to_float(const points& p) {
+    return map(p, [](double x, auto...) { return static_cast<float>(x); });
+}
+
+inline points rounded_to_digits(const points& p) {
+    return map(p, [](double x, auto...) { return std::round(1000 * x) / 1000; });
+}
+
+// Each axis has three values: exact degeneracies of coordinates that fill their 53 bits.
+inline points few_values(source& random) {
+    std::array<position, 3> values;
+    for (auto& axis : values) axis = {random.symmetric(), random.symmetric(), random.symmetric()};
+    return fill([&](std::size_t, std::size_t, std::size_t axis) {
+        return values[axis][static_cast<std::size_t>(random.between(0, 2))];
+    });
+}
+
+inline points part_frozen(source& random, points p) {
+    for (auto& m : p) {
+        if (random.one_in(2)) m.t1 = m.t0;
+    }
+    return p;
+}
+
+inline points all_frozen(points p) {
+    for (auto& m : p) m.t1 = m.t0;
+    return p;
+}
+
+inline points in_plane(source& random, const points& p) {
+    const auto flat = static_cast<std::size_t>(random.between(0, 2));
+    return map(p, [&](double x, std::size_t, std::size_t, std::size_t axis) {
+        return axis == flat ? 0 : x;
+    });
+}
+
+inline points on_line(source& random, const points& p) {
+    const auto line = static_cast<std::size_t>(random.between(0, 2));
+    return map(p, [&](double x, std::size_t, std::size_t, std::size_t axis) {
+        return axis == line ? x : 0;
+    });
+}
+
+// One point takes the position of another, at the start, the end or both.
+inline points merged(source& random, points p) {
+    const auto from = static_cast<std::size_t>(random.between(0, 3));
+    const auto to = static_cast<std::size_t>(random.between(0, 3));
+    const int which = random.between(0, 2);
+    if (which != 1) p[to].t0 = p[from].t0;
+    if (which != 0) p[to].t1 = p[from].t1;
+    return p;
+}
+
+inline point<double> along(const point<double>& a, const point<double>& b, const point<double>& c,
+                           int k) {
+    return {a.x + k * (c.x - b.x), a.y + k * (c.y - b.y), a.z + k * (c.z - b.z)};
+}
+
+// Moves the fourth point: edges are parallel, or the triangle is a segment, at the start, the end
+// or both.
+inline points parallel(source& random, kind which, points p) {
+    const int k = random.between(-2, 2);
+    const int when = random.between(0, 2);
+    const std::size_t from = which == kind::vertex_face ? 1 : 0;
+    const std::size_t base = which == kind::vertex_face ? 1 : 2;
+    if (when != 1) p[3].t0 = along(p[base].t0, p[from].t0, p[from + 1].t0, k);
+    if (when != 0) p[3].t1 = along(p[base].t1, p[from].t1, p[from + 1].t1, k);
+    return p;
+}
+
+// On one axis all coordinates are at most 2^exponent.
+inline points nearly_in_plane(source& random, const points& p, int exponent) {
+    const auto flat = static_cast<std::size_t>(random.between(0, 2));
+    return map(p, [&](double x, std::size_t, std::size_t, std::size_t axis) {
+        return axis == flat ? std::ldexp(random.symmetric(), exponent) : x;
+    });
+}
+
+inline points translated(source& random, kind which, const points& p) {
+    const std::size_t first_feature = first_feature_size(which);
+    std::array<position, 2> shift;
+    for (auto& s : shift) s = {random.symmetric(), random.symmetric(), random.symmetric()};
+    points out = all_frozen(p);
+    return map(out, [&](double x, std::size_t i, std::size_t end, std::size_t axis) {
+        return end == 0 ? x : x + shift[i < first_feature ? 0 : 1][axis];
+    });
+}
+
+inline points far_from_origin(source& random, kind which, int exponent) {
+    const position offset{random.symmetric(), random.symmetric(), random.symmetric()};
+    return map(near_contact(random, which, 0.5),
+               [&](double x, std::size_t, std::size_t, std::size_t axis) {
+                   return x + std::ldexp(offset[axis], exponent);
+               });
+}
 
 inline constexpr family list[] = {
     {"uniform", [](source& r, kind) { return uniform(r); }},

@@ -39,34 +39,34 @@ bool claims_nothing(const Number& x) {
 }
 
 template <class Number>
-void check(const sample<Number>& s, const std::string& what) {
+void check(const sample<Number>& s, const std::string& context) {
     using T = typename Number::value_type;
     using errbound::sign_type;
     const sign_type sign = sign_of(s.number);
-    ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(s.exact)) << what;
+    ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(s.exact)) << context;
     if (claims_nothing(s.number)) {
         // Bounds in a wider type can determine the sign even if the error overflows T.
         if (!errbound::detail::bounds_are_wider<T, typename Number::rule_type> ||
             !errbound::number_traits<T>::is_finite(s.number.value())) {
-            ASSERT_EQ(sign, sign_type::uncertain) << what;
+            ASSERT_EQ(sign, sign_type::uncertain) << context;
         }
         return;
     }
-    ASSERT_GE(exactly(s.number.error()), 0) << what;
+    ASSERT_GE(exactly(s.number.error()), 0) << context;
     const rational off = exactly(s.number.value()) - s.exact;
     ASSERT_LE(boost::multiprecision::abs(off), exactly(s.number.error()))
-        << what << " value " << static_cast<double>(s.number.value()) << " error "
+        << context << " value " << static_cast<double>(s.number.value()) << " error "
         << static_cast<double>(s.number.error());
 }
 
 /// `root` is the tracked root of a number that represents `square`.
 template <class Number>
-void check_root(const Number& root, const rational& square, const std::string& what) {
+void check_root(const Number& root, const rational& square, const std::string& context) {
     if (claims_nothing(root)) return;
     const rational v = exactly(root.value()), e = exactly(root.error());
-    ASSERT_GE(square, 0) << what;
-    ASSERT_TRUE(v - e <= 0 || (v - e) * (v - e) <= square) << what;
-    ASSERT_GE((v + e) * (v + e), square) << what;
+    ASSERT_GE(square, 0) << context;
+    ASSERT_TRUE(v - e <= 0 || (v - e) * (v - e) <= square) << context;
+    ASSERT_GE((v + e) * (v + e), square) << context;
 }
 
 /// Each step combines two earlier numbers. `draw(random)` makes a finite input.

@@ -23,7 +23,7 @@ int run_command_line(int argc, char** argv, int rank) {
         "Exact continuous collision detection over the ranks of MPI.\n"
         "Exit status: 0 done, 1 bad input, 2 bad usage.",
         ERRBOUND_VERSION};
-    constexpr errbound::support::command_maker commands[] = {distributed_step_command};
+    const errbound::support::command_maker commands[] = {distributed_step_command};
     return errbound::support::run_command(text, argc, argv, commands, rank == 0);
 }
 

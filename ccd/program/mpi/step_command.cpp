@@ -150,8 +150,6 @@ class distributed_step final : public command {
 
 }  // namespace
 
-std::unique_ptr<command> distributed_step_command(CLI::App& program) {
-    return std::make_unique<distributed_step>(program);
-}
+const command_maker distributed_step_command = make_command<distributed_step>;
 
 }  // namespace ccd::program

@@ -1,6 +1,7 @@
 // MPSolve's files: a kind of three letters, the precision, the degree, then coefficients.
 #include <algorithm>
 #include <cmath>
+#include <errbound/integers/decimal_number.hpp>
 #include <errbound/polynomial.hpp>
 #include <optional>
 #include <span>
@@ -27,27 +28,13 @@ integer power_of_ten(std::size_t n) {
 
 /// A decimal, exactly; nothing if it is none, or has an exponent beyond 10,000.
 std::optional<fraction> fraction_in(std::string_view text) {
-    std::string digits;
-    long exponent = 0;
-    const std::size_t e = text.find_first_of("eE");
-    for (const char c : text.substr(0, e)) {
-        if (c == '.' && exponent == 0)
-            exponent = 1;  // counts digits after the point, from 1
-        else if ((c == '-' && digits.empty()) || (c >= '0' && c <= '9'))
-            digits += c, exponent += exponent > 0;
-        else if (c != '+' || !digits.empty())
-            return std::nullopt;
-    }
-    long after = exponent > 0 ? exponent - 1 : 0;
-    if (e != std::string_view::npos) {
-        const auto power = number_in(text.substr(e + 1));
-        if (!power || std::abs(*power) > 10'000) return std::nullopt;
-        after -= static_cast<long>(*power);
-    }
-    if (digits.empty() || digits == "-") return std::nullopt;
-    const integer all = integer::from_string(digits),
-                  ten = power_of_ten(static_cast<std::size_t>(std::abs(after)));
-    return after >= 0 ? fraction{all, ten} : fraction{all * ten, 1};
+    const integers::decimal_text decimal(text);
+    if (!decimal.well_formed() || std::abs(decimal.exponent()) > 10'000) return std::nullopt;
+    integer all = 0;
+    decimal.for_digits(decimal.digits(), [&](integers::word digit) { all = 10 * all + digit; });
+    if (decimal.negative()) all = -all;
+    const integer ten = power_of_ten(static_cast<std::size_t>(std::abs(decimal.exponent())));
+    return decimal.exponent() < 0 ? fraction{all, ten} : fraction{all * ten, 1};
 }
 
 /// Integer coefficients, ascending, of a multiple; empty with the reason if there are none.

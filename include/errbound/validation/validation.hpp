@@ -95,7 +95,7 @@ using progress = std::function<void(std::uint64_t done, std::uint64_t all)>;
 
 /// The merged result of all chunks, independent of the number of threads (0: one per core).
 /// Rethrows a chunk's exception after all threads have ended.
-report examine(const evidence& what, int threads, const progress& show = {});
+report examine(const evidence& examined, int threads, const progress& show = {});
 
 struct expression_options {
     std::uint64_t expressions = 10'000'000;  ///< at least this many per rule and number type

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <boost/multiprecision/gmp.hpp>
 #include <ccd/bodies/motion.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/curves.hpp>

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "tests/ccd/contact/by_hand.hpp"
-#include "tests/support/nearness_faults.hpp"
+#include "tests/ccd/contact/nearness_faults.hpp"
 #include "tests/support/query_families.hpp"
 #include "tests/support/scaled.hpp"
 

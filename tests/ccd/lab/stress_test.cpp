@@ -209,7 +209,7 @@ TEST(stress_run, no_promise_is_broken) {
     plan.queries = 3;
     std::size_t collisions = 0, by_float = 0;
     for (const lab::cell& c : run(plan)) {
-        EXPECT_FALSE(c.broken) << plan.subjects[c.subject].name << ": " << c.broken->what << ", "
+        EXPECT_FALSE(c.broken) << plan.subjects[c.subject].name << ": " << c.broken->clause << ", "
                                << c.family->name << ' ' << c.knob << ' ' << c.broken->index;
         collisions += c.finite.colliding;
         if (plan.subjects[c.subject].name == "float") by_float += c.wrong_certain;

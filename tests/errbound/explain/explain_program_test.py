@@ -5,9 +5,10 @@ import os
 import pathlib
 import re
 import subprocess
-import tempfile
 import unittest
 from xml.etree import ElementTree
+
+from program import ProgramTest
 
 PROGRAM = os.environ["ERRBOUND_PROGRAM"]
 EXAMPLE = os.environ["ERRBOUND_EXAMPLE"]
@@ -29,23 +30,13 @@ def bars(picture):
     return [title for title in titles if float(re.search(r": (\d+\.\d) %", title)[1]) >= 1]
 
 
-class Explain(unittest.TestCase):
+class Explain(ProgramTest):
+    command = [PROGRAM, "explain"]
+
     def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.directory = pathlib.Path(directory.name)
+        super().setUp()
         self.file = self.directory / "variance.json"
         self.printed = subprocess.run([EXAMPLE, self.file], capture_output=True, text=True, check=True).stdout
-
-    def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, "explain", *map(str, arguments)], capture_output=True, text=True,
-                              timeout=300, **options)
-
-    def good(self, *arguments, **options):
-        done = self.run_program(*arguments, **options)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr, "")
-        return done.stdout
 
     def test_the_table_is_the_programs_own(self):
         results = json.loads(self.file.read_text())["results"]
@@ -105,14 +96,9 @@ class Explain(unittest.TestCase):
                               (self.file.read_text()[:-20], "text at byte")):
             bad = self.directory / "bad.json"
             bad.write_text(text)
-            done = self.run_program(bad, "--picture", picture)
-            self.assertEqual(done.returncode, 1)
-            self.assertIn("bad.json: " + message, done.stderr)
-            self.assertEqual(done.stdout, "")
+            self.refused(1, "bad.json: " + message, bad, "--picture", picture)
             self.assertFalse(picture.exists())
-        done = self.run_program(self.directory / "missing.json")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("missing.json", done.stderr)
+        self.refused(1, "missing.json", self.directory / "missing.json")
 
     def test_bad_output(self):
         missing = self.directory / "missing" / "out"
@@ -126,10 +112,7 @@ class Explain(unittest.TestCase):
         text = self.file.read_text()
         for arguments in ((), (self.file, "--result", "no such"), (self.file, "--lines", "0"),
                           (self.file, "--picture", self.file), (self.file, self.file)):
-            done = self.run_program(*arguments)
-            self.assertEqual(done.returncode, 2, arguments)
-            self.assertNotEqual(done.stderr, "")
-            self.assertEqual(done.stdout, "")
+            self.refused(2, "", *arguments)
         self.assertEqual(self.file.read_text(), text)
 
 

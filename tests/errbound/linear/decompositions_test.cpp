@@ -1,19 +1,99 @@
-// Eigen's decompositions of tracked matrices, under the rule `tight`; orders and limits of numbers.
+// Eigen's decompositions of tracked matrices, compared with exact rationals; orders and limits of
+// numbers.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <errbound/eigen.hpp>
 #include <limits>
 #include <vector>
 
-#include "tests/errbound/linear/decomposition_check.hpp"
+#include "tests/errbound/linear/matrix_families.hpp"
+#include "tests/errbound/linear/rational_systems.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
 
-using namespace decomposition_check;
+using errbound::sign_type;
+using errbound::tracked;
 using matrix_families::family;
+using rational_systems::rational;
+using rational_systems::table;
+
+/// A system, and its exact solution, inverse and determinant.
+struct exact_system {
+    Eigen::MatrixXd a, b;
+    table solution, inverse;
+    rational determinant;
+
+    exact_system(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right)
+        : a(matrix),
+          b(right),
+          solution(right),
+          inverse(Eigen::MatrixXd::Identity(a.rows(), a.rows())),
+          determinant(eliminate(table(a), inverse)) {
+        (void)eliminate(table(a), solution);
+    }
+    bool regular() const { return determinant != 0; }
+};
+
+template <class Number>
+bool holds(const Number& x, const rational& exact) {
+    return rational_systems::holds(x.value(), x.error(), exact);
+}
+
+/// Checks all entries. Returns the number of those with a finite error.
+template <class Matrix>
+int known(const Matrix& x, const table& exact, const char* what) {
+    int count = 0;
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+        for (Eigen::Index j = 0; j < x.cols(); ++j) {
+            EXPECT_TRUE(holds(x(i, j), exact(i, j))) << what << ' ' << i << ' ' << j;
+            count += std::isfinite(x(i, j).error());
+        }
+    return count;
+}
+
+/// Checks LU decomposition, determinant and inverse. Returns the number of entries of the solution
+/// with a finite error.
+template <int N, class Rule>
+int check_lu(const exact_system& s) {
+    using number = tracked<double, Rule>;
+    using matrix = Eigen::Matrix<number, N, N>;
+    using vector = Eigen::Matrix<number, N, 1>;
+    const matrix a = s.a.template cast<number>();
+    const vector b = s.b.col(0).template cast<number>();
+    const Eigen::Matrix<number, N, Eigen::Dynamic> sides = s.b.template cast<number>();
+
+    const Eigen::PartialPivLU<matrix> lu(a);
+    EXPECT_TRUE(holds(lu.determinant(), s.determinant));
+    EXPECT_TRUE(holds(a.determinant(), s.determinant));
+    const sign_type sign = sign_of(lu.determinant());
+    EXPECT_TRUE(!certain(sign) || sign == sign_type(s.determinant.sign() + 1));
+    if (!s.regular()) return 0;
+    known(Eigen::Matrix<number, N, Eigen::Dynamic>(lu.solve(sides)), s.solution, "LU, matrix");
+    known(matrix(a.inverse()), s.inverse, "inverse");
+    return known(vector(lu.solve(b)), s.solution, "LU");
+}
+
+/// Checks QR decomposition. Returns the number of entries of the solution with a finite error.
+template <int N, class Rule>
+int check_qr(const exact_system& s) {
+    using number = tracked<double, Rule>;
+    const Eigen::Matrix<number, N, N> a = s.a.template cast<number>();
+    const Eigen::Matrix<number, N, 1> b = s.b.col(0).template cast<number>();
+    const Eigen::HouseholderQR<Eigen::Matrix<number, N, N>> qr(a);
+    EXPECT_TRUE(holds(qr.absDeterminant(), abs(s.determinant)));
+    if (!s.regular()) return 0;
+    return known(Eigen::Matrix<number, N, 1>(qr.solve(b)), s.solution, "QR");
+}
+
+/// A system of n equations from the family, with three right-hand sides.
+exact_system system_of(matrix_families::family f, int n, matrix_families::generator& make) {
+    return {make.make(f, n),
+            make.whole(0, 3) == 0 ? make.whole_numbers(n, 3, 2) : make.uniform(n, 3)};
+}
 
 /// True if exact elimination of 30 unknowns takes well under a second.
 bool quick_in_rationals(family f) {
@@ -49,6 +129,34 @@ TEST(Decompositions, HoldAtAnySize) {
     }
     EXPECT_GT(3 * by_lu, unknowns);
     EXPECT_GT(3 * by_qr, unknowns);
+}
+
+template <class Rule>
+class DecompositionsBy : public testing::Test {};
+using Rules = testing::Types<errbound::sharp, errbound::interval, errbound::residual>;
+TYPED_TEST_SUITE(DecompositionsBy, Rules);
+
+TYPED_TEST(DecompositionsBy, Hold) {
+    matrix_families::generator make(1);
+    int unknowns = 0, all = 0;
+    for (const auto f : matrix_families::all) {
+        SCOPED_TRACE(matrix_families::names[int(f)]);
+        for (const int n : {1, 2, 3, 5, 8})
+            for (int k = 0; k < support::scaled(5); ++k) {
+                all += check_lu<Eigen::Dynamic, TypeParam>(system_of(f, n, make));
+                unknowns += n;
+            }
+    }
+    EXPECT_GT(3 * all, unknowns);
+}
+
+TEST(DecompositionsByNone, AreThoseOfPlainNumbers) {
+    using number = tracked<double, errbound::none>;
+    matrix_families::generator make(2);
+    const Eigen::Matrix3d a = make.uniform(3, 3);
+    const Eigen::Matrix<number, 3, 3> same = a.cast<number>();
+    const double determinant = a.determinant();
+    EXPECT_NEAR(same.determinant().value(), determinant, 1e-15);
 }
 
 /// Pivots that are zero, that may be zero, and that are not numbers.

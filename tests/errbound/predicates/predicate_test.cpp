@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tests/errbound/predicates/predicate_check.hpp"
@@ -33,17 +34,12 @@ class Predicates : public testing::Test {};
 using number_types = testing::Types<float, double>;
 TYPED_TEST_SUITE(Predicates, number_types);
 
-TYPED_TEST(Predicates, Orient2d) {
-    compare_in_all_stages<TypeParam>(std::get<0>(predicate_list::all));
-}
-TYPED_TEST(Predicates, Orient3d) {
-    compare_in_all_stages<TypeParam>(std::get<1>(predicate_list::all));
-}
-TYPED_TEST(Predicates, Incircle) {
-    compare_in_all_stages<TypeParam>(std::get<2>(predicate_list::all));
-}
-TYPED_TEST(Predicates, Insphere) {
-    compare_in_all_stages<TypeParam>(std::get<3>(predicate_list::all));
+// orient2d, orient3d, incircle and insphere
+TYPED_TEST(Predicates, OfShewchukAreDecidedByAllStages) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        (compare_in_all_stages<TypeParam>(std::get<I>(predicate_list::all)), ...);
+    }
+    (std::make_index_sequence<4>());
 }
 
 // The constants next to Shewchuk's A-filters (1997), in units of 2^-53: 3 + 16e, 7 + 56e, 10 + 96e
@@ -215,6 +211,7 @@ static_assert(by_product(2.0, 1.0) == sign_type::positive);
 /// It evaluates signs of several degrees, and the longest number does not have the highest.
 constexpr auto cubic_if_real =
     errbound::predicate<errbound::points<0, 0, 0>>([](const auto& a, const auto& b, const auto& c) {
+        using errbound::sign_of;
         const sign_type s = sign_of(b * b - 4 * a * c);
         if (s != sign_type::positive) return s;
         return sign_of(a * a * a - b * b * c);
@@ -224,39 +221,15 @@ constexpr auto with_many_constants = errbound::predicate<errbound::points<0, 0, 
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return (2 * (2 * (2 * (2 * (2 * a))))) * (b * c * d) - a * b * c * d;
     });
-TYPED_TEST(Predicates, OfSeveralDegreesAndManyConstants) {
-    using T = TypeParam;
-    compare<T, 1, 3>(
-        cubic_if_real,
-        [](const auto& p) {
-            const rational a = p[0][0], b = p[1][0], c = p[2][0];
-            const sign_type s = errbound::sign_of(rational(b * b - 4 * a * c));
-            return s != sign_type::positive ? s
-                                            : errbound::sign_of(rational(a * a * a - b * b * c));
-        },
-        surface::flat);
-    compare<T, 1, 4>(
-        with_many_constants,
-        [](const auto& p) {
-            return errbound::sign_of(
-                rational(rational(31) * p[0][0] * p[1][0] * p[2][0] * p[3][0]));
-        },
-        surface::flat);
-}
-
-TYPED_TEST(Predicates, OfAnyDegree) {
+TYPED_TEST(Predicates, OfAnyDegreesAndConstants) {
     using T = TypeParam;
     const auto report = compare<T, 2, 2>(sextic, over_rationals(sextic), surface::flat);
     EXPECT_GT(report[predicate_stage::semi_static_filter], 0u);
     EXPECT_GT(report[predicate_stage::static_filter], 0u);
     compare<T, 2, 1>(above_parabola, over_rationals(above_parabola), surface::flat);
-    predicate_inputs::generator random(5);
-    for (int i = 0; i < inputs_per_family(); ++i) {
-        const auto p = predicate_inputs::stretched<T, 1, 3>(random, surface::flat);
-        const T a = p[0][0], b = p[1][0], c = p[2][0];
-        EXPECT_EQ(discriminant(a, b, c),
-                  errbound::sign_of(rational(rational(b) * b - rational(4) * a * c)));
-    }
+    compare<T, 1, 3>(discriminant, over_rationals(discriminant), surface::flat);
+    compare<T, 1, 3>(cubic_if_real, over_rationals(cubic_if_real), surface::flat);
+    compare<T, 1, 4>(with_many_constants, over_rationals(with_many_constants), surface::flat);
 }
 
 // The check of an expression took multiples of the largest int for zero.

@@ -121,15 +121,20 @@ class meeting {
         if (std::all_of(corners_.begin(), corners_.end(),
                         [&](const auto& p) { return is_between(p, common); }))
             return disjoint;
-        // The mean of all corners' weights is positive where any is.
-        if (!std::all_of(positive_.begin(), positive_.end(), [](bool p) { return p; }))
-            return touching;
-        points<D> of_a = directions(a_), of_b = directions(b_), all = of_a;
+        if (!interiors_meet()) return touching;
+        const std::size_t rank_a = rank_of<D>(directions(a_)), rank_b = rank_of<D>(directions(b_));
+        if (rank_a == rank() && rank_b == rank() && rank() > 0) return overlapping;
+        return rank() == D ? crossing : touching;
+    }
+    /// Without their borders. The mean of all corners' weights is positive where any is.
+    bool interiors_meet() const {
+        return std::all_of(positive_.begin(), positive_.end(), [](bool p) { return p; });
+    }
+    /// The dimension that both span.
+    std::size_t rank() const {
+        points<D> all = directions(a_), of_b = directions(b_);
         all.insert(all.end(), of_b.begin(), of_b.end());
-        const std::size_t rank_a = rank_of<D>(of_a), rank_b = rank_of<D>(of_b),
-                          rank = rank_of<D>(all);
-        if (rank_a == rank && rank_b == rank && rank > 0) return overlapping;
-        return rank == D ? crossing : touching;
+        return rank_of<D>(all);
     }
 
   private:
@@ -188,10 +193,19 @@ class meeting {
 
 namespace predicate_oracle {
 
-inline int triangle_intersects_triangle(const std::array<std::array<big_integer, 3>, 6>& p) {
-    const simplices_oracle::points<3> a(p.begin(), p.begin() + 3), b(p.begin() + 3, p.end());
-    const errbound::relation r = simplices_oracle::meeting<3>(a, b).relation({});
-    return r == errbound::relation::crossing ? 1 : r == errbound::relation::disjoint ? -1 : 0;
+/// The first points and the others: 1 if the simplices meet without their borders and span `rank`
+/// dimensions, −1 if they do not meet, else 0.
+template <std::size_t First, std::size_t D, std::size_t N>
+int simplices_meet(const std::array<std::array<big_integer, D>, N>& p, std::size_t rank = D) {
+    const simplices_oracle::points<D> a(p.begin(), p.begin() + First),
+        b(p.begin() + First, p.end());
+    const simplices_oracle::meeting<D> found(a, b);
+    if (found.corners().empty()) return -1;
+    return found.interiors_meet() && found.rank() == rank ? 1 : 0;
 }
+inline constexpr auto point_and_other = [](const auto& p) { return simplices_meet<1>(p); };
+inline constexpr auto segments = [](const auto& p) { return simplices_meet<2>(p, 2); };
+inline constexpr auto segment_and_triangle = [](const auto& p) { return simplices_meet<2>(p); };
+inline constexpr auto triangles = [](const auto& p) { return simplices_meet<3>(p); };
 
 }  // namespace predicate_oracle

@@ -1,17 +1,13 @@
 # Tests of `errbound conformance` as a user runs it, on small files in the forms of published sets.
 # The path to the program is in the environment variable ERRBOUND_PROGRAM.
-import csv
 import fractions
 import json
 import math
 import os
-import pathlib
 import random
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = os.environ["ERRBOUND_PROGRAM"]
+from program import ProgramTest, rows_of
 
 INTERVALS = """/* Intervals: a comment
    of two lines */
@@ -65,11 +61,10 @@ def fixtures(name, count, dimension, points, lifted):
     return "\n".join(lines) + "\n"
 
 
-class Conformance(unittest.TestCase):
+class Conformance(ProgramTest):
     def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.folder = pathlib.Path(directory.name) / "sets"
+        super().setUp()
+        self.folder = self.directory / "sets"
         self.folder.mkdir()
 
     def write(self, name, text):
@@ -79,8 +74,8 @@ class Conformance(unittest.TestCase):
         return path
 
     def run_program(self, *arguments):
-        return subprocess.run([PROGRAM, "conformance", str(self.folder), *map(str, arguments)],
-                              capture_output=True, text=True, timeout=300)
+        self.command = [os.environ["ERRBOUND_PROGRAM"], "conformance", self.folder]
+        return super().run_program(*arguments)
 
     def found(self, *arguments, status=0):
         out = self.folder.parent / "out.json"
@@ -126,8 +121,7 @@ class Conformance(unittest.TestCase):
             "an operand is empty or unbounded": 1,
             "the result is empty, unbounded or no interval": 2,
             "the library has no such operation: intersection, isEmpty": 2})
-        with open(self.folder.parent / "out.csv", newline="") as file:
-            self.assertEqual(sum(int(r["cases"]) for r in csv.DictReader(file)), 7)
+        self.assertEqual(sum(int(r["cases"]) for r in rows_of(self.folder.parent / "out.csv")), 7)
         self.assertIn("ITF1788, log", (self.folder.parent / "out.svg").read_text())
         path.write_text("testcase wrong { add [1.0] [1.0] = [2.0, 3.0]; }")
         _, all, _ = self.found(status=1)
@@ -178,16 +172,14 @@ class Conformance(unittest.TestCase):
         self.assertEqual(all["skipped"][0]["reason"], "the program has a loop")
 
     def test_bad_input(self):
-        self.assertEqual(self.run_program().returncode, 1)
-        self.assertEqual(self.run_program("--rules", "tightest").returncode, 2)
-        self.assertEqual(self.run_program("--seconds", "-1").returncode, 2)
+        self.refused(1, "")
+        self.refused(2, "tightest", "--rules", "tightest")
+        self.refused(2, "-1", "--seconds", "-1")
         path = self.write("sums.itl", INTERVALS)
-        self.assertEqual(self.run_program("--csv", path).returncode, 2)
+        self.refused(2, "", "--csv", path)
         self.assertEqual(path.read_text(), INTERVALS)
         self.folder = self.folder / "missing"
-        done = self.run_program()
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("is no folder; expected a folder", done.stderr)
+        self.refused(1, "is no folder; expected a folder")
 
 
 if __name__ == "__main__":

@@ -1,14 +1,10 @@
 # Tests of `errbound ranges` as a user runs it: bounds, reasons, files it writes, messages.
 # The path to the program is in the environment variable ERRBOUND_PROGRAM.
-import csv
 import json
 import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-PROGRAM = os.environ["ERRBOUND_PROGRAM"]
+from program import ProgramTest, rows_of
 
 CORES = """
 ; A comment (with a bracket
@@ -29,23 +25,13 @@ CORES = """
 """
 
 
-class Ranges(unittest.TestCase):
+class Ranges(ProgramTest):
+    command = [os.environ["ERRBOUND_PROGRAM"], "ranges", "--samples", "4000", "--boxes", "3000"]
+
     def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.directory = pathlib.Path(directory.name)
+        super().setUp()
         self.cores = self.directory / "cores.fpcore"
         self.cores.write_text(CORES)
-
-    def run_program(self, *arguments):
-        return subprocess.run([PROGRAM, "ranges", "--samples", "4000", "--boxes", "3000",
-                               *map(str, arguments)], capture_output=True, text=True, timeout=300)
-
-    def good(self, *arguments):
-        done = self.run_program(*arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr, "")
-        return done.stdout
 
     def test_bounds_as_table_json_csv_and_picture(self):
         out, table, picture = (self.directory / name for name in ["o.json", "o.csv", "o.svg"])
@@ -76,9 +62,7 @@ class Ranges(unittest.TestCase):
             "domain": "there is no finite bound: an operation may overflow or leave its domain",
             "mixed": "the program has several precisions",
             "format": "the precision posit16 is not supported"})
-        with open(table, newline="") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual([float(row["at_most"]) for row in rows],
+        self.assertEqual([float(row["at_most"]) for row in rows_of(table)],
                          [entry["at_most"] for entry in done.values()])
         self.assertTrue(picture.read_text().startswith("<svg"))
 
@@ -90,8 +74,7 @@ class Ranges(unittest.TestCase):
         text = self.good(self.cores, "--published", tool, "--published", other, "--csv", table)
         self.assertIn("1 of 2 bounds are at most those of tool", text)
         self.assertIn("0 of 1 bounds are at most those of other", text)
-        with open(table, newline="") as file:
-            rows = {row["core"]: row for row in csv.DictReader(file)}
+        rows = {row["core"]: row for row in rows_of(table)}
         self.assertEqual(rows["quotient"]["other"], "1e-09")
         self.assertEqual(rows["constants"]["tool"], "")
         half = self.good(self.cores, "--only", "quotient", "--precision", "binary16")
@@ -152,25 +135,19 @@ class Ranges(unittest.TestCase):
                               ("(define x)", "1: a list is no core; expected (FPCore"),
                               ('(FPCore (x) :name "a', "1: a text does not end")]:
             self.cores.write_text(text)
-            done = self.run_program(self.cores)
-            self.assertEqual(done.returncode, 1)
-            self.assertIn(f"{self.cores}:{message}", done.stderr)
+            self.refused(1, f"{self.cores}:{message}", self.cores)
         self.cores.write_text(CORES)
-        self.assertEqual(self.run_program(self.cores, "--only", "none").returncode, 2)
+        self.refused(2, "", self.cores, "--only", "none")
         for option, value in (("--precision", "double"), ("--gap", "nan"), ("--function-units", "nan"),
                               ("--seconds", "-1"), ("--measured", "-1"), ("--rules", "tightest"), ("--rules", "")):
-            done = self.run_program(self.cores, option, value)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(value, done.stderr)
-        self.assertEqual(self.run_program(self.cores, "--csv", self.cores).returncode, 2)
+            self.refused(2, value, self.cores, option, value)
+        self.refused(2, "", self.cores, "--csv", self.cores)
         column = self.directory / "upper.csv"
         column.write_text("quotient,1\n")
-        self.assertEqual(self.run_program(self.cores, "--published", column).returncode, 2)
+        self.refused(2, "", self.cores, "--published", column)
         bad = self.directory / "bad.csv"
         bad.write_text("quotient;1\n")
-        done = self.run_program(self.cores, "--published", bad)
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("bad.csv:1: line is 'quotient;1'; expected CORE,BOUND", done.stderr)
+        self.refused(1, "bad.csv:1: line is 'quotient;1'; expected CORE,BOUND", self.cores, "--published", bad)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,6 @@
 // hashes of the results to proofs/tie.txt. It enumerates the same cases in the same order.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -428,35 +426,17 @@ std::vector<operation> other_operations(const format<T>& f) {
             })};
 }
 
-/// The operations whose results differ from the table's.
+/// Adds lines of these operations.
 template <class T>
-std::vector<std::string> differences(const table& expected, const std::vector<operation>& all,
-                                     selection selected) {
-    std::vector<std::string> found;
+void add_lines(std::vector<line>& lines, const std::vector<operation>& all, selection selected) {
+    const std::string format_name = format<T>().name + (errbound::has_fast_fma<T> ? ",fma " : " ");
     for (const operation& o : all) {
-        auto line = expected.end();
-        if (errbound::has_fast_fma<T>) line = expected.find(format<T>().name + ",fma " + o.name);
-        if (line == expected.end()) line = expected.find(format<T>().name + " " + o.name);
-        if (line == expected.end()) {
-            found.push_back(o.name + " (not in the table)");
-            continue;
-        }
-        const std::uint64_t cases = selected.of(o.total);
-        hash results;
-        sequence numbers;
-        for (std::uint64_t i = 0; i < cases; ++i)
-            o.run(results, cases == o.total ? i : numbers.draw(o.total));
-        if (results.value() != line->second) found.push_back(o.name);
+        const std::uint64_t total = o.total, cases = selected.of(total);
+        lines.push_back({format_name + o.name, cases,
+                         [=, run = o.run, numbers = sequence()](hash& h, std::uint64_t i) mutable {
+                             run(h, cases == total ? i : numbers.draw(total));
+                         }});
     }
-    return found;
-}
-
-/// The operations of the rule whose results differ from the table's.
-template <class T, class Rule>
-std::vector<std::string> differences(const table& expected) {
-    const format<T> f;
-    const states<T, Rule> s(f);
-    return differences<T>(expected, operations_of<T, Rule>(f, s), format<T>::of_rules);
 }
 
 }  // namespace tie

@@ -184,26 +184,16 @@ class functions_of {
     number_draws<T, Rule> numbers_;
 };
 
+/// The number of groups of the rule, its operations and functions, that differ from the table.
 template <class T, class Rule>
-std::vector<std::string> differences_of_functions(const table& expected) {
+int count_differences_of(bool first_alone) {
     const format<T> f;
     const states<T, Rule> s(f);
     const functions_of<T, Rule> functions(f, s);
-    return differences<T>(expected, functions.operations(), format<T>::of_functions);
-}
-
-/// The rules in T, and functions by them, have the results of the proofs' table.
-template <class T>
-void expect_the_proofs_results() {
-    const table expected = read_table();
-    ASSERT_FALSE(expected.empty()) << ERRBOUND_TIE_TABLE;
-    const std::vector<std::string> none;
-    const format<T> f;
-    EXPECT_EQ(differences<T>(expected, other_operations<T>(f), format<T>::of_rules), none);
-    errbound::for_each_rule(tied_rules(), [&]<class Rule>() {
-        EXPECT_EQ((differences<T, Rule>(expected)), none);
-        EXPECT_EQ((differences_of_functions<T, Rule>(expected)), none);
-    });
+    std::vector<line> lines;
+    add_lines<T>(lines, operations_of<T, Rule>(f, s), format<T>::of_rules);
+    add_lines<T>(lines, functions.operations(), format<T>::of_functions);
+    return count_differences(lines, first_alone);
 }
 
 }  // namespace tie

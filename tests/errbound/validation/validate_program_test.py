@@ -1,33 +1,20 @@
 # Tests of the program `errbound` as a user runs it: exit statuses, messages, files it writes.
 # The path to the program is in the environment variable ERRBOUND_PROGRAM.
-import csv
 import json
 import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 from collections import Counter
 
-PROGRAM = os.environ["ERRBOUND_PROGRAM"]
+from program import ProgramTest, rows_of
 
 
-class Validate(unittest.TestCase):
-    def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.directory = pathlib.Path(directory.name)
-
-    def run_program(self, *arguments):
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
-                              timeout=300)
+class Validate(ProgramTest):
+    command = [os.environ["ERRBOUND_PROGRAM"]]
 
     def good(self, *arguments):
-        done = self.run_program("validate", *arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr, "")
-        self.assertTrue(done.stdout.endswith("\nno violations\n"), done.stdout)
-        return done.stdout
+        text = super().good("validate", *arguments)
+        self.assertTrue(text.endswith("\nno violations\n"), text)
+        return text
 
     def test_expressions_as_table_json_and_csv(self):
         out, table = self.directory / "out.json", self.directory / "out.csv"
@@ -48,10 +35,7 @@ class Validate(unittest.TestCase):
             self.assertEqual(int(cases), sum(entry["cases"] for entry in entries))
             self.assertEqual(int(values), sum(entry["values"] for entry in entries))
         self.assertLessEqual({"none", "safe", "tight"}, rules)
-        with open(table, newline="") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual(len(rows), len(found["tightness"]))
-        for row, entry in zip(rows, found["tightness"]):
+        for row, entry in zip(rows_of(table), found["tightness"], strict=True):
             self.assertEqual(list(row), list(entry))
             self.assertEqual(row["quantity"], entry["quantity"])
             self.assertEqual(int(row["ratios"]), entry["ratios"])
@@ -102,9 +86,7 @@ class Validate(unittest.TestCase):
         found = json.loads(out.read_text())["functions"]
         self.assertEqual([(f["function"], f["number"]) for f in found],
                          [(f, n) for f in ("exp", "cbrt", "pow") for n in ("double", "float")])
-        with open(table, newline="") as file:
-            rows = list(csv.DictReader(file))
-        for f, row in zip(found, rows, strict=True):
+        for f, row in zip(found, rows_of(table), strict=True):
             self.assertEqual(sorted(row), sorted(f))
             self.assertGreater(f["arguments"], 1000)
             self.assertGreater(f["largest"], 0.4)
@@ -149,10 +131,7 @@ class Validate(unittest.TestCase):
                 ("--every-bound is given without --tiny", "validate", "--every-bound"),
                 ("--csv is given without", "validate", "--functions", "sin", "--csv", "out"),
                 ("", "validate", "--json", "out", "--csv", "out")):
-            done = self.run_program(*arguments)
-            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
-            self.assertIn(message, done.stderr)
-            self.assertNotEqual(done.stderr, "")
+            self.refused(2, message, *arguments)
 
 
 if __name__ == "__main__":

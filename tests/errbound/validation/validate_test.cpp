@@ -225,13 +225,13 @@ TEST(Validate, TriesEveryFloat) {
         .functions = {errbound::elementary_function::sin},
         .every_float = true,
         .numbers = {errbound::validation::number_type::float_type}};
-    const validation::evidence what = validation::evidence_of_functions(options);
-    ASSERT_GT(what.chunks, 100U);
+    const validation::evidence all = validation::evidence_of_functions(options);
+    ASSERT_GT(all.chunks, 100U);
     // The last 2^23 − 1 floats are NaN, after infinity. They are not tried.
-    const validation::report last = what.report_of(what.chunks - 1);
+    const validation::report last = all.report_of(all.chunks - 1);
     ASSERT_EQ(last.functions.size(), 1U);
     EXPECT_EQ(last.functions.front().function, "sin");
-    const double size = 0x1p32 / static_cast<double>(what.chunks);
+    const double size = 0x1p32 / static_cast<double>(all.chunks);
     EXPECT_NEAR(static_cast<double>(last.functions.front().arguments), size - 0x1p23, 0.001 * size);
     options.functions.clear();
     EXPECT_EQ(validation::evidence_of_functions(options).chunks, 0U);
@@ -246,8 +246,8 @@ TEST(Validate, FindsTheLargestErrorOfAllFloats) {
         .every_float = true,
         .numbers = {errbound::validation::number_type::float_type}};
     const auto around = [&] {
-        const validation::evidence what = validation::evidence_of_functions(options);
-        return what.report_of(most * what.chunks >> 32U).functions.front();
+        const validation::evidence all = validation::evidence_of_functions(options);
+        return all.report_of(most * all.chunks >> 32U).functions.front();
     };
     const validation::function_errors as_assumed = around();
     options.units = 0.5;
@@ -264,14 +264,14 @@ TEST(Validate, ChunksTogetherAreTheWhole) {
     const rule rules[] = {validation::rule_of<errbound::tight>(), validation::rule_of<as_printed>(),
                           validation::rule_of<too_small>()};
     const validation::expression_options options{.expressions = 6000, .seed = 4};
-    const validation::evidence what = validation::evidence_of_expressions(rules, options);
-    ASSERT_GT(what.chunks, 3U);
+    const validation::evidence all = validation::evidence_of_expressions(rules, options);
+    ASSERT_GT(all.chunks, 3U);
     // Two halves of the chunks, each merged by itself.
     validation::report first, second;
-    for (std::uint64_t c = 0; c < what.chunks; ++c)
-        (c < what.chunks / 2 ? first : second).merge(what.report_of(c));
+    for (std::uint64_t c = 0; c < all.chunks; ++c)
+        (c < all.chunks / 2 ? first : second).merge(all.report_of(c));
     first.merge(second);
-    what.describe(first);
+    all.describe(first);
     const validation::report whole = validation::validate_expressions(rules, options);
     EXPECT_EQ(all_violations(first), all_violations(whole));
     ASSERT_EQ(first.counts.size(), 6U);
@@ -293,16 +293,16 @@ TEST(Validate, ChunksTogetherAreTheWhole) {
 }
 
 TEST(Validate, ExceptionsOfChunksArePropagated) {
-    validation::evidence what{.chunks = 100,
-                              .report_of = [](std::uint64_t c) -> validation::report {
-                                  if (c == 7) throw std::runtime_error("seven");
-                                  return {};
-                              },
-                              .describe = [](validation::report&) {}};
+    validation::evidence all{.chunks = 100,
+                             .report_of = [](std::uint64_t c) -> validation::report {
+                                 if (c == 7) throw std::runtime_error("seven");
+                                 return {};
+                             },
+                             .describe = [](validation::report&) {}};
     for (const int threads : {1, 3})
-        EXPECT_THROW(validation::examine(what, threads), std::runtime_error);
-    what.chunks = 0;
-    EXPECT_TRUE(validation::examine(what, 2).counts.empty());
+        EXPECT_THROW(validation::examine(all, threads), std::runtime_error);
+    all.chunks = 0;
+    EXPECT_TRUE(validation::examine(all, 2).counts.empty());
 }
 
 TEST(Distribution, ExtremesAndClampedQuantiles) {

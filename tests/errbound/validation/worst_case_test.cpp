@@ -61,55 +61,49 @@ program random_program(random_source& random, bool with_functions) {
     return p;
 }
 
+/// Functions whose names differ: those of recorded numbers are found by their arguments.
 template <class S>
-S absolute_of(const S& x) {
-    if constexpr (std::same_as<S, recorded>)
-        return abs(x);
-    else
-        return number_traits<S>::abs(x);
-}
-template <class S>
-S root_of(const S& x) {
-    if constexpr (std::same_as<S, recorded>)
-        return sqrt(x);
-    else
-        return number_traits<S>::sqrt(x);
-}
-template <class S>
-S fused_of(const S& x, const S& y, const S& z) {
-    if constexpr (std::same_as<S, recorded>)
-        return fma(x, y, z);
-    else if constexpr (std::same_as<S, long double>)
-        return x * y + z;
-    else
-        return number_traits<S>::fma(x, y, z);
-}
-template <class S>
-S lesser_of(const S& x, const S& y) {
-    if constexpr (std::same_as<S, recorded>)
-        return min(x, y);
-    else
-        return y < x ? y : x;
-}
-template <class S>
-S greater_of(const S& x, const S& y) {
-    if constexpr (std::same_as<S, recorded>)
-        return max(x, y);
-    else
-        return x < y ? y : x;
-}
-template <class S>
-S function_of(elementary_function f, const S& x, const S& y) {
+S function_of(const step& s, const S& x, const S& y, const S& z) {
     if constexpr (std::same_as<S, recorded>) {
-        return validation::has_two_arguments(f) ? recorded::of(f, x, y) : recorded::of(f, x);
+        switch (static_cast<op>(s.kind)) {
+            case op::root:
+                return sqrt(x);
+            case op::absolute:
+                return abs(x);
+            case op::lesser:
+                return min(x, y);
+            case op::greater:
+                return max(x, y);
+            case op::fused:
+                return fma(x, y, z);
+            default:
+                const elementary_function f = functions[s.kind - first_function];
+                return validation::has_two_arguments(f) ? recorded::of(f, x, y)
+                                                        : recorded::of(f, x);
+        }
     } else {
         using wide = detail::function_type<S>;
-        return validation::with_function(f, [&]<elementary_function F>() {
-            if constexpr (validation::has_two_arguments(F))
-                return S(detail::system_function<F>(static_cast<wide>(x), static_cast<wide>(y)));
-            else
-                return S(detail::system_function<F>(static_cast<wide>(x)));
-        });
+        switch (static_cast<op>(s.kind)) {
+            case op::root:
+                return number_traits<S>::sqrt(x);
+            case op::absolute:
+                return number_traits<S>::abs(x);
+            case op::lesser:
+                return y < x ? y : x;
+            case op::greater:
+                return x < y ? y : x;
+            case op::fused:
+                if constexpr (std::same_as<S, long double>) return x * y + z;
+                return number_traits<S>::fma(x, y, z);
+            default:
+                return validation::with_function(
+                    functions[s.kind - first_function], [&]<elementary_function F>() {
+                        if constexpr (validation::has_two_arguments(F))
+                            return S(detail::system_function<F>(wide(x), wide(y)));
+                        else
+                            return S(detail::system_function<F>(wide(x)));
+                    });
+        }
     }
 }
 
@@ -120,40 +114,13 @@ S run(const program& p, const std::vector<S>& inputs) {
     for (const step& s : p.steps) {
         const S x = v[static_cast<std::size_t>(s.left)], y = v[static_cast<std::size_t>(s.right)],
                 z = v[static_cast<std::size_t>(s.third)];
-        switch (static_cast<op>(s.kind)) {
-            case op::add:
-                v.push_back(x + y);
-                break;
-            case op::sub:
-                v.push_back(x - y);
-                break;
-            case op::mul:
-                v.push_back(x * y);
-                break;
-            case op::div:
-                v.push_back(x / y);
-                break;
-            case op::neg:
-                v.push_back(-x);
-                break;
-            case op::root:
-                v.push_back(root_of(x));
-                break;
-            case op::absolute:
-                v.push_back(absolute_of(x));
-                break;
-            case op::lesser:
-                v.push_back(lesser_of(x, y));
-                break;
-            case op::greater:
-                v.push_back(greater_of(x, y));
-                break;
-            case op::fused:
-                v.push_back(fused_of(x, y, z));
-                break;
-            default:
-                v.push_back(function_of(functions[s.kind - first_function], x, y));
-        }
+        const auto kind = static_cast<op>(s.kind);
+        v.push_back(kind == op::add   ? x + y
+                    : kind == op::sub ? x - y
+                    : kind == op::mul ? x * y
+                    : kind == op::div ? x / y
+                    : kind == op::neg ? -x
+                                      : function_of(s, x, y, z));
     }
     return v.back();
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/gmp.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
@@ -16,30 +15,6 @@
 #include "tests/support/oracle.hpp"
 
 namespace support::contact_data {
-
-namespace mp = boost::multiprecision;
-using rational = mp::number<mp::gmp_rational, mp::et_off>;
-using real = mp::number<mp::gmp_float<120>, mp::et_off>;
-
-inline bool is_zero(const vector<rational>& a) {
-    return a[0] == 0 && a[1] == 0 && a[2] == 0;
-}
-inline vector<rational> of(const ccd::point<double>& p) {
-    return {rational(p.x), rational(p.y), rational(p.z)};
-}
-
-/// The points of a query at a time, and their velocities.
-struct moment {
-    std::vector<vector<rational>> at, velocity;
-
-    template <class Query>
-    moment(const Query& query, const rational& t) {
-        for (const auto& p : points_of(query)) {
-            velocity.push_back(of(p.t1) - of(p.t0));
-            at.push_back(of(p.t0) - rational(-t) * velocity.back());
-        }
-    }
-};
 
 /// (f1 − f0) × (f2 − f0) or (a1 − a0) × (b1 − b0).
 inline vector<rational> cross_product(ccd::kind k, const moment& m) {
@@ -59,17 +34,6 @@ inline vector<rational> velocity(std::size_t first_points, const std::array<rati
     for (std::size_t i = 0; i < m.at.size(); ++i)
         sum = sum - rational(i < first_points ? -w[i] : w[i]) * m.velocity[i];
     return sum;
-}
-
-inline vector<real> unit(const vector<rational>& a) {
-    // Divides by the largest first, so that every size is in range.
-    rational largest = 0;
-    for (const rational& x : a)
-        if (abs(x) > largest) largest = abs(x);
-    vector<real> r;
-    for (std::size_t i = 0; i < 3; ++i) r[i] = real(rational(a[i] / largest));
-    const real length = sqrt(dot(r, r));
-    return {r[0] / length, r[1] / length, r[2] / length};
 }
 
 /// Checks one answer of find_first_contact that reports a contact, and collects the faults.
@@ -164,7 +128,7 @@ class check {
             return;
         }
         auto n = unit(along);
-        const vector<real> claimed{found_.normal.x, found_.normal.y, found_.normal.z};
+        const auto claimed = of<real>(found_.normal);
         if (found_.normal_from == ccd::normal_source::cross_product && dot(n, claimed) < 0)
             n = real(-1) * n;
         const auto off = claimed - n;
@@ -181,19 +145,14 @@ class check {
             const rational t(found_.time.low), high(found_.time.high);
             const rational width = t < high ? rational(high - t) : t;
             const auto side = [&](int exponent) {
-                const rational little = width * rational(power_of_two(exponent));
+                const rational little = width * power_of(2, -exponent);
                 const moment m(query_, t < high ? rational(t + little) : rational(t - little));
                 const auto n = cross_product(whole, m);
-                const exact_vector claimed{rational(found_.normal.x), rational(found_.normal.y),
-                                           rational(found_.normal.z)};
-                return (height(whole, m) * dot(n, claimed)).sign();
+                return (height(whole, m) * dot(n, of(found_.normal))).sign();
             };
             const int near = side(2000), nearer = side(4000);
             if (near == nearer && near < 0) fault("the other side");
         }
-    }
-    static rational power_of_two(int exponent) {
-        return rational(1) / rational(mp::mpz_int(1) << exponent);
     }
 
     const Query& query_;
