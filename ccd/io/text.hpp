@@ -15,7 +15,8 @@ std::string excerpt(std::string_view found);
 /// UTF-16 or UTF-32.
 std::string_view without_byte_order_mark(std::string_view text, const std::string& name);
 
-/// Removes the end mark of DOS, Ctrl-Z, and the blanks around it.
+/// Removes the end marks of DOS, Ctrl-Z, with blanks and line ends around them. Without a mark,
+/// removes nothing.
 std::string_view without_end_mark(std::string_view text);
 
 /// True if c is a control character other than tab.
@@ -85,7 +86,8 @@ std::string describe(number_status status, const std::string& name, const std::s
 /// hexadecimal float that no double equals is inexact unless `round`. Independent of the locale.
 number parse_double(std::string_view token, bool round);
 
-/// Same as parse_double without rounding, for a float, which is then widened.
+/// Same as parse_double(token, false) for float: the nearest float of a decimal number, or the
+/// float equal to a hexadecimal one, converted to double.
 number parse_float(std::string_view token);
 
 /// The double equal to numerator/denominator, two decimal integers of any size. If no double equals

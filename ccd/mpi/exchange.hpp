@@ -60,7 +60,7 @@ class exchanger {
     MPI_Comm comm() const { return comm_; }
     std::size_t rank() const { return static_cast<std::size_t>(rank_); }
     std::size_t size() const { return static_cast<std::size_t>(size_); }
-    /// Bytes sent to other ranks so far.
+    /// Bytes of items sent to other ranks so far, without their counts.
     std::uint64_t bytes() const { return bytes_; }
 
     template <class Check>

@@ -60,9 +60,9 @@ struct wanted_candidates {
     bool close = false;
     /// The search may omit pairs that do not meet until this time.
     double t_max = 1;
-    /// For t_max < 1: also pairs that may meet on straight ways to the rounded positions that
-    /// `between` (ccd/step/advance/advancing.hpp) returns for one fraction, at most t_max, of all
-    /// vertices.
+    /// For t_max < 1: also pairs that may meet if each vertex goes straight to the rounded position
+    /// that `between` (ccd/step/advance/advancing.hpp) returns for it. All vertices use the same
+    /// fraction of the step, at most t_max.
     bool spare = false;
     /// Only some of the close pairs; none if they cannot be found in floats.
     bool sample = false;

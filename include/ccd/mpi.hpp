@@ -75,7 +75,7 @@ enum class placement : std::uint8_t {
 struct rank_work {
     std::uint64_t elements_given = 0;  ///< faces, edges and vertices without one, as passed
     std::uint64_t elements_held = 0;   ///< received, from itself too
-    std::uint64_t bytes_sent = 0;      ///< to other ranks
+    std::uint64_t bytes_sent = 0;      ///< of items, to other ranks
     double seconds = 0;
 };
 

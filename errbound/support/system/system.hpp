@@ -21,14 +21,14 @@ double memory_bytes();
 double load();
 std::filesystem::path program_file();  ///< empty if unknown
 int process_number();
-/// Runs a program with one argument. Returns its exit status; 127 if it cannot run.
+/// Runs a program with one argument. Returns its exit status; 127 if it cannot run or is killed.
 int run(const char* program, const std::string& argument);
 
 /// The separators in a path; and true if devices have names like /dev/stdin.
 extern const std::string_view separators;
 extern const bool has_device_files;
 /// Returns the name in the system's bytes, or in UTF-8 if its names are not bytes. The functions
-/// below take such names. (libstdc++ 12's paths never return if memory runs out.)
+/// below take such names, since std::filesystem::path hangs in libstdc++ 12 if memory runs out.
 std::string native_name(const std::filesystem::path& path);
 std::string real_name(const std::string& name);  ///< without links; empty if there is no such file
 /// True if two absolute names without links are the same for the system.
@@ -39,7 +39,8 @@ bool may_write_in(const std::string& folder);
 bool replace(const std::string& from, const std::string& to);  ///< renames
 bool remove(const std::string& file);
 
-/// Return descriptors, or -1. The user's mask sets the rights of the file, which must not exist.
+/// These three return a descriptor, or -1. `create` makes a file that must not exist, with rights
+/// by the user's mask. `open_to_write` opens an existing one.
 int create(const std::string& file);
 int open_to_write(const std::string& file);
 int create_named(std::string& pattern);  ///< replaces the name's last six letters

@@ -69,8 +69,8 @@ class range {
     friend range hull(const range& a, const range& b) {
         return {std::min(a.lower(), b.lower()), std::max(a.upper(), b.upper())};
     }
-    /// Precondition: a and b enclose the same numbers, b except for rounding errors. So a is right
-    /// if the two are disjoint.
+    /// Precondition: both enclose the same numbers, but rounding may put a number just outside one
+    /// of them. If they are disjoint, returns a.
     friend range common(const range& a, const range& b) {
         const range r(std::max(a.lower(), b.lower()), std::min(a.upper(), b.upper()));
         return r.lower() <= r.upper() ? r : a;
