@@ -11,10 +11,10 @@
 
 namespace errbound {
 
-/// Same as Rule in state, operations and constants, except dot_bound: dot products apply Self's
-/// operations one by one. If an operation of Rule calls another (`subtract` calls `add`), it calls
-/// Rule's, not Self's. A changed operation voids Rule's promise: set error_is, or prove and
-/// validate the change.
+/// Same as Rule in state, operations and constants, except the two below and dot_bound: dot
+/// products apply Self's operations one by one. If an operation of Rule calls another (`subtract`
+/// calls `add`), it calls Rule's, not Self's. A changed operation voids Rule's promise: set
+/// error_is, or prove and validate the change.
 template <class Self, class Rule>
 struct derived_rule : Rule {
     /// Rule's proof does not cover Self. Self may redefine these.

@@ -195,10 +195,11 @@ struct rule_check {
 //   square_root(result, a)                  the bound of the rounded √a, unknown if a may be
 //                                           negative; default: from the error of a
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
-//   keeps_first_order                       true if bounds keep signs or sources of errors. √a and
-//                                           ab + c, without square_root or fused, are then also
-//                                           computed by the rule's operations, including divide;
-//                                           the smaller bound counts
+//   keeps_first_order                       true if bounds store signed errors (residual) or
+//   sources
+//                                           of errors (affine). A rule without square_root (fused)
+//                                           then has two bounds of √a (of ab + c), the default and
+//                                           one by its operations, with divide; the smaller counts
 //   is_crowded(bound)                       with keeps_first_order: true if the bound has no room
 //                                           for another source; √a then becomes one new source.
 //   displacement(value)                     the bound of a number with this value whose exact
