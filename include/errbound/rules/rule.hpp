@@ -196,10 +196,10 @@ struct rule_check {
 //                                           negative; default: from the error of a
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
 //   keeps_first_order                       true if bounds store signed errors (residual) or
-//   sources
-//                                           of errors (affine). A rule without square_root (fused)
-//                                           then has two bounds of √a (of ab + c), the default and
-//                                           one by its operations, with divide; the smaller counts
+//                                           sources of errors (affine). A rule without square_root
+//                                           (fused) then has two bounds of √a (of ab + c): the
+//                                           default, and one by its operations, with divide. The
+//                                           smaller counts.
 //   is_crowded(bound)                       with keeps_first_order: true if the bound has no room
 //                                           for another source; √a then becomes one new source.
 //   displacement(value)                     the bound of a number with this value whose exact
