@@ -34,8 +34,8 @@ struct advance_options {
     /// Pairs that start nearer than (1 + 2^-10) times their distance may come nearer,
     /// but not below this share of their distance at the start: in [0, 1). So pairs that rest at
     /// their distance can slide on. With 0, pairs that start within their distance may come
-    /// arbitrarily near, but do not touch. All others keep their whole distance, so a pair just
-    /// above it stops its group.
+    /// arbitrarily near, but do not touch; pairs that start farther apart keep the whole distance,
+    /// so one just above it stops its group.
     double keep = 0.1;
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest

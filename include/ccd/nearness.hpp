@@ -101,9 +101,9 @@ std::vector<nearness> nearnesses(const Queries& queries, const nearness_options&
     return detail::nearnesses_of_items(detail::input_of(queries), nullptr, options);
 }
 
-/// Returns nearness_of each query at the `low` of its time, as from first_times, which is the time
-/// of the event or just before. Queries without one have no data. Throws also if the numbers of
-/// queries and times differ.
+/// Returns nearness_of each query at times[i].low, the double at or just before its contact, if
+/// `times` is a result of first_times. Queries without contact have no data. Throws also if the
+/// numbers of queries and times differ.
 template <pair_range Pairs>
 std::vector<nearness> nearnesses(const vertex_rows& positions, const Pairs& pairs,
                                  std::span<const first_time> times,

@@ -5,11 +5,11 @@
 //
 // For many steps of one mesh, use mesh_steps. A pair is two elements without a common vertex:
 // vertex/face, edge/edge and, in meshes with rods or points, vertex/edge and vertex/vertex. When
-// two elements first touch, such a pair touches (docs/collision-detection.md, Steps). Elements that
-// intersect at t = 0 are among the pairs only if a vertex touches a face, or edges touch. An edge
-// that goes through the inside of a face throughout is in no pair; step_options::check_start
-// reports it. Results do not depend on the number of threads. Throws std::invalid_argument for bad
-// input.
+// two elements first touch, such a pair touches (docs/collision-detection.md, Steps of a mesh).
+// Elements that intersect at t = 0 are among the pairs only if a vertex touches a face, or edges
+// touch. An edge that goes through the inside of a face throughout is in no pair;
+// step_options::check_start reports it. Results do not depend on the number of threads. Throws
+// std::invalid_argument for bad input.
 #pragma once
 
 #include <ccd/batch.hpp>

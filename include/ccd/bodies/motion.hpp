@@ -109,9 +109,9 @@ namespace detail {
 template <>
 inline constexpr bool is_motion<body_point> = true;
 
-/// Approximates a motion between two times by a chord for each point. Let y = X − centre. At every
-/// time, X is within error_of(|y|₁) of the point that moves at constant speed from ends_of(y).t0 to
-/// ends_of(y).t1.
+/// Approximates a motion between two times by a chord for each point. Let y = X − centre for a rest
+/// position X. At every time, x(t) is within error_of(|y|₁) of the point that moves at constant
+/// speed from ends_of(y).t0 to ends_of(y).t1.
 struct motion_chords {
     enum class motion_kind { rests, keeps_direction, turns };
 
