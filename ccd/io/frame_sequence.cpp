@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <bit>
 #include <boost/crc.hpp>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <errbound/support/error.hpp>
 #include <fstream>
 #include <limits>
-#include <sstream>
+#include <map>
 #include <string_view>
+#include <utility>
 
 #include "ccd/io/text.hpp"
 
@@ -116,21 +119,46 @@ std::vector<member> members_of(byte_file& file) {
     return members;
 }
 
-/// The text after a key of a header, without blanks before it; empty if the key is missing.
-std::string_view value_of(std::string_view key, std::string_view header) {
-    const std::size_t at = header.find(key);
-    if (at == header.npos) return {};
-    header.remove_prefix(at + key.size());
-    return header.substr(std::min(header.find_first_not_of(' '), header.size()));
+/// The entries of a header, a dictionary in Python's notation, without blanks; empty if it is
+/// damaged or has a key twice.
+std::map<std::string, std::string> entries_of(std::string_view header) {
+    std::string text;
+    bool blank = false;
+    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    for (const char c : header) {
+        const bool was_blank = std::exchange(blank, c == ' ' || c == '\t' || c == '\n');
+        if (blank) continue;
+        if (was_blank && is_word(c) && !text.empty() && is_word(text.back())) return {};
+        text += c == '"' ? '\'' : c;
+    }
+    if (!text.starts_with('{') || !text.ends_with('}')) return {};
+    std::map<std::string, std::string> entries;
+    for (std::size_t at = 1; at + 1 < text.size(); ++at) {
+        const std::size_t colon = text.find("':", at + 1), begin = colon + 2;
+        if (text[at] != '\'' || colon == text.npos) return {};
+        const bool is_tuple = text[begin] == '(';
+        const std::size_t end =
+            is_tuple ? text.find(')', begin) + 1 : text.find_first_of(",}", begin);
+        if (end <= begin || end >= text.size() || (text[end] != ',' && text[end] != '}')) return {};
+        if (!entries.emplace(text.substr(at + 1, colon - at - 1), text.substr(begin, end - begin))
+                 .second)
+            return {};
+        at = end;
+    }
+    return entries;
 }
 
-/// The numbers of a tuple, "(5, 20, 3), ...".
+/// The numbers of a tuple, "(5,20,3)"; empty if it is damaged.
 std::vector<std::uint64_t> sizes_in(std::string_view tuple) {
-    std::istringstream text{std::string(tuple.substr(0, tuple.find(')')))};
     std::vector<std::uint64_t> sizes;
-    char before = 0;
-    for (std::uint64_t n = 0; text >> before && before == (sizes.empty() ? '(' : ',') && text >> n;)
+    if (!tuple.starts_with('(')) return {};
+    for (tuple.remove_prefix(1); tuple != ")";) {
+        std::uint64_t n = 0;
+        const auto [end, error] = std::from_chars(tuple.data(), tuple.data() + tuple.size(), n);
+        if (error != std::errc() || (*end != ',' && *end != ')')) return {};
         sizes.push_back(n);
+        tuple.remove_prefix(static_cast<std::size_t>(end - tuple.data()) + (*end == ',' ? 1 : 0));
+    }
     return sizes;
 }
 
@@ -146,12 +174,14 @@ stored_positions array_at(byte_file& file, std::uint64_t offset, std::uint64_t s
     if (length > longest_header || length > size - begin) file.fail("header is damaged");
     const std::string header = file.read(offset + begin, length);
     const std::string expected = "; expected float32 or float64 of shape (n, 3) or (frames, n, 3)";
-    const std::string_view type = value_of("'descr':", header);
-    const std::vector<std::uint64_t> shape = sizes_in(value_of("'shape':", header));
-    if (!type.starts_with('\'') || shape.size() < 2 || shape.size() > 3 || shape.back() != 3 ||
+    auto entries = entries_of(header);
+    const std::string &type = entries["descr"], &order = entries["fortran_order"];
+    const std::vector<std::uint64_t> shape = sizes_in(entries["shape"]);
+    if (entries.size() != 3 || !type.starts_with('\'') || (order != "False" && order != "True") ||
+        shape.size() < 2 || shape.size() > 3 || shape.back() != 3 ||
         std::ranges::max(shape) >= 1'000'000'000'000'000)
         file.fail("header is " + excerpt(header) + expected);
-    if (!value_of("'fortran_order':", header).starts_with("False"))
+    if (order == "True")
         file.fail("array is in Fortran's order; expected C's (numpy.ascontiguousarray)");
     const std::string kind(type.substr(1, type.find('\'', 1) - 1));
     if (kind != "<f4" && kind != "<f8" && kind != ">f4" && kind != ">f8")

@@ -13,8 +13,9 @@ int run_command_line(int argc, char** argv) {
         "ccd",
         "Exact continuous collision detection.\n"
         "Exit status: 0 done, 1 bad input, 2 bad usage; stress, report and validate also return 1 "
-        "if a\nmethod or rule breaks its guarantee; check and audit return 3 if a mesh intersects "
-        "itself,\nbodies if two bodies touch.",
+        "if a\nmethod or rule breaks its guarantee; check returns 3 if a mesh intersects itself, "
+        "audit "
+        "if\nelements intersect or touch, bodies if two bodies touch.",
         ERRBOUND_VERSION};
     const errbound::support::command_maker commands[] = {
         query_command,    step_command,   check_command,  audit_command,

@@ -17,8 +17,9 @@ namespace errbound::support {
 
 /// Calls compute(block) for blocks first, ..., end − 1 on threads (0: one per core), and
 /// merge(result) for each, in this order, on the calling thread. So what is merged does not depend
-/// on the number of threads. Ends early, between blocks, when `stop` is not 0. Throws the exception
-/// of a block or of `merge`, and std::system_error if the system has no more threads.
+/// on the number of threads. Results of later blocks are kept until an earlier one ends. Ends
+/// early, between blocks, when `stop` is not 0. Throws the exception of a block or of `merge`, and
+/// std::system_error if the system has no more threads.
 template <class Compute, class Merge>
 void merge_in_order(std::uint64_t first, std::uint64_t end, unsigned threads,
                     const Compute& compute, const Merge& merge, const std::atomic<int>& stop) {

@@ -67,7 +67,7 @@ int main() {
         quarter, ccd::affine_motion{.p0 = {0, 3, 0}, .p1 = {0, 2.5, 0}},
         ccd::affine_motion{.p0 = {0, 0, -2}, .p1 = {0, 0, -2}}};
     const ccd::body_step_result found = steps.run(step);
-    const ccd::body_advance free = steps.advance(step);
+    const ccd::body_advance free = steps.advance(step, {.step = {.check_start = true}});
     std::printf("%zu pairs, the first at t = %.6f; free up to %.6f of the way, with %zu pairs\n",
                 number_of(found.pairs), found.first_contact.low, free.fraction,
                 number_of(steps.run(free.motions).pairs));

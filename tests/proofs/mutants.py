@@ -174,6 +174,8 @@ def record(counts):
 if __name__ == "__main__":
     if len(sys.argv) < 3:
         sys.exit(__doc__)
+    if unknown := set(sys.argv[3:]) - set(ties.TIES):
+        sys.exit(f"tie is {min(unknown)}; expected one of {', '.join(ties.TIES)}")
     counts, wrong = run(sys.argv[1], Path(sys.argv[2]).resolve(), sys.argv[3:])
     record(counts)
     print(records.table())

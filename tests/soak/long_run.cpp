@@ -1,8 +1,10 @@
 #include "tests/soak/long_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "errbound/support/ordered_blocks.hpp"
@@ -11,6 +13,7 @@
 namespace soak {
 
 namespace fs = std::filesystem;
+using namespace std::string_view_literals;
 
 std::vector<std::uint64_t>& count_table::operator[](std::string_view name) {
     auto found = std::ranges::find(rows, name, &row::name);
@@ -76,6 +79,8 @@ std::uint64_t part::blocks_for(std::uint64_t questions) const {
 
 namespace {
 
+constexpr std::array own_files{"differences.txt"sv, "differences-vf.csv"sv, "differences-ee.csv"sv};
+
 /// Writes the files of differences, and removes those of an earlier run.
 void save(const std::vector<difference>& differences, const fs::path& folder) {
     std::map<std::string, std::string> files;
@@ -85,7 +90,8 @@ void save(const std::vector<difference>& differences, const fs::path& folder) {
     }
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        if (name.starts_with("differences") && !files.contains(name)) fs::remove(entry.path());
+        if (std::ranges::find(own_files, name) != own_files.end() && !files.contains(name))
+            fs::remove(entry.path());
     }
     for (const auto& [name, lines] : files) errbound::support::write_whole(folder / name, lines);
 }

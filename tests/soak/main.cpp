@@ -116,8 +116,11 @@ struct command_line {
 };
 
 void add_parts(CLI::App& app, command_line& given) {
+    const CLI::Range counts(std::uint64_t{1}, std::uint64_t{1} << 40);
     CLI::Option* const queries =
-        app.add_option("--queries", given.count, "At least that many")->capture_default_str();
+        app.add_option("--queries", given.count, "At least that many, in whole blocks")
+            ->capture_default_str()
+            ->check(counts);
     CLI::Option_group& parts = *app.add_option_group("Instead");
     parts.require_option(0, 1);
     const auto of_queries = [&](const char* name, const char* what, auto part) {
@@ -131,6 +134,7 @@ void add_parts(CLI::App& app, command_line& given) {
         };
         parts.add_option_function<std::uint64_t>(name, choose, what)
             ->type_name("N")
+            ->check(counts)
             ->excludes(queries);
     };
     of_queries("--symmetries",
@@ -184,6 +188,10 @@ int run_part(command_line& given) {
     if (options.folder.empty()) options.folder = fs::path("out/soak") / of.name;
     options.first = of.blocks_for(given.first);
     options.end = of.blocks_for(given.first + given.count);
+    if (options.first == options.end)
+        throw errbound::support::usage_error("--first " + std::to_string(given.first) + " and " +
+                                             std::to_string(given.count) + " " + of.unit +
+                                             " hold no block; expected more " + of.unit);
     const errbound::support::awaited_signals signals("soak: stopping\n");
     progress_display display(of, options);
     std::printf("%s, seed %ju: %s %s\n", of.name.c_str(), std::uintmax_t{options.seed},

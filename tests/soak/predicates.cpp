@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "ccd/lab/queries.hpp"
+#include "errbound/support/command_line.hpp"
 #include "tests/ccd/exact/audited.hpp"
 #include "tests/errbound/predicates/predicate_list.hpp"
 #include "tests/soak/parts.hpp"
@@ -206,6 +207,11 @@ findings empty_findings() {
 
 part predicate_part(const std::string& name) {
     part all{.name = "predicates", .unit = "inputs"};
+    bool any = false;
+    for_each_predicate(name, [&](const auto&) { any = true; });
+    if (!any)
+        throw errbound::support::usage_error("--predicate is '" + name +
+                                             "'; expected a part of the name of a predicate");
     all.count = [](std::uint64_t blocks) { return blocks * inputs_per_block; };
     all.compare_block = [name](std::uint64_t seed, std::uint64_t block) {
         findings out = empty_findings();

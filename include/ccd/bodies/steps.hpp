@@ -45,8 +45,9 @@ struct body_step_result {
     time_lists times;              ///< the first time of each of `pairs`
     pair_lists touching_at_start;  ///< the members of `pairs` that touch at t = 0
     /// With check_start: edges that go through the inside of another body's face at t = 0, sorted.
-    /// If two tested bodies have no pair here and none that touches at t = 0, their surfaces are
-    /// apart at t = 0; otherwise they are not. Exact for the poses as given, without rounding.
+    /// Surfaces of two tested bodies are apart at t = 0 if the bodies have no pair here and none
+    /// that touches at t = 0. Without a distance, only then. Exact for the poses as given, without
+    /// rounding.
     std::vector<edge_face_pair> crossing_at_start;
     first_time first_contact;    ///< the earliest not at t = 0; `separate` if there is none
     pair_lists first_pairs;      ///< the members of `pairs` with that time

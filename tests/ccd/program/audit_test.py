@@ -184,6 +184,9 @@ class Audit(ProgramTest):
                 ("a.npy", npy(good, order="True"), "Fortran"),
                 ("a.npy", npy(heights([1, 2]), shape="(8, 3, 1)"), "expected float32 or float64 of shape"),
                 ("a.npy", npy([[(1, 2, 3)]], "<i4"), "expected float32 or float64"),
+                *[("a.npy", npy(good, shape=shape), "header is") for shape in (
+                    "(-2, 4, 3)", "(2, 4, 3; 9)", "(2, 4, 3", "(1 2, 4, 3)", "(2, 4, 3), 'shape': (2, 4, 3)")],
+                ("a.npy", npy(good, order="Falsehood"), "header is"),
                 ("a.npy", npy(good)[:60], "header is damaged"),
                 ("a.npy", b"", "not an array of NumPy"),
                 ("a.npy", npy(heights([1, float("nan")])), "a.npy[1]: coordinate of vertex 3 is nan"),
