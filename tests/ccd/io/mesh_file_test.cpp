@@ -107,7 +107,8 @@ TEST(Meshes, Files) {
          {std::pair("m.stl", "extension is '.stl'; expected .ply or .obj"),
           {"none.ply", "file does not exist"},
           {"d.ply", "is a directory"}}) {
-        const std::string found = message_of([&] { read_mesh(directory.path / name); });
+        const fs::path file = directory.path / name;
+        const std::string found = message_of([&] { read_mesh(file); });
         EXPECT_NE(found.find(message), std::string::npos) << found;
     }
 }

@@ -135,7 +135,7 @@ lab::subject always(ccd::verdict said, bool may_lose, bool may_report) {
     const auto decide = [said](auto queries, std::span<ccd::verdict> verdicts) {
         std::fill_n(verdicts.begin(), queries.size(), said);
     };
-    return {"always", may_lose, may_report, decide, decide};
+    return {"always", may_lose, may_report, {decide, decide}};
 }
 
 constexpr ccd::verdict separate{ccd::outcome::separate, ccd::cause::none};
