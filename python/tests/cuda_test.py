@@ -120,13 +120,13 @@ class WithOldInterface(WithInterface):
 
 
 class WithCapsule(DeviceArray):
-    asked = None  # the stream of the last call
+    last_stream = None  # of the last call
 
     def __dlpack_device__(self):
         return self.device_type, 0
 
     def __dlpack__(self, *, stream=None):
-        self.asked = stream
+        self.last_stream = stream
         if self.stream is not None and stream != self.stream:
             runtime.wait(self.stream)
         return self.capsule()
@@ -315,7 +315,7 @@ class StreamsAndLifetime(unittest.TestCase):
             arrays = self.arrays(make, producer)
             np.testing.assert_array_equal(self.decide(arrays, stream=stream).numpy(), self.expected)
             if make is WithCapsule:
-                self.assertEqual([x.asked for x in arrays], [stream or 1] * 3)
+                self.assertEqual([x.last_stream for x in arrays], [stream or 1] * 3)
             del arrays  # before the next copies are queued: cudaFree waits for all streams
 
     def test_objects_of_streams(self):
@@ -323,7 +323,7 @@ class StreamsAndLifetime(unittest.TestCase):
         for members in {"ptr": stream}, {"cuda_stream": stream}, {"__cuda_stream__": lambda self: (0, stream)}:
             arrays = self.arrays(WithCapsule)
             self.decide(arrays, stream=type("Stream", (), members)())
-            self.assertEqual(arrays[0].asked, stream)
+            self.assertEqual(arrays[0].last_stream, stream)
         for stream, error in ((-1, ValueError), ("0", TypeError), (1.5, TypeError)):
             with self.assertRaisesRegex(error, "^stream is "):
                 self.decide(self.arrays(WithCapsule), stream=stream)
