@@ -2,6 +2,7 @@
 
 #include <ccd/methods/transform.hpp>
 #include <cmath>
+#include <errbound/predicates.hpp>
 #include <errbound/tracked.hpp>
 #include <optional>
 
@@ -88,6 +89,7 @@ first_time first_within_of_bodies(std::span<const body_point> points, separation
 
 namespace {
 
+namespace forms = errbound::forms;
 using bounded_position = triple<errbound::tracked<double>>;
 
 /// The position at t = 0. Precondition: the point is prepared.
@@ -102,29 +104,13 @@ bounded_position start_of(const body_point& p) {
     return {near(start.x), near(start.y), near(start.z)};
 }
 
-bounded_position difference(const bounded_position& to, const bounded_position& from) {
-    return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-}
-
-/// The sign of Y at t = 0, which is the volume of the points, from their positions.
-template <kind K>
-errbound::sign_type sign_at_start(const std::array<bounded_position, 4>& at) {
-    const auto& [p, q, r, s] = at;
-    return K == kind::vertex_face
-               ? sign_of(dot(cross(difference(r, q), difference(s, q)), difference(p, q)))
-               : sign_of(dot(cross(difference(q, p), difference(s, r)), difference(r, p)));
-}
-
 /// True if a line certainly separates the projections of an edge and a face along an axis. This
 /// decides most pairs in one plane.
 bool is_beside(const std::array<bounded_position, 2>& e, const std::array<bounded_position, 3>& f) {
     using enum errbound::sign_type;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto side = [&](const bounded_position& a, const bounded_position& b,
-                              const bounded_position& c) {
-            const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-            return sign_of((b[x] - a[x]) * (c[y] - a[y]) - (b[y] - a[y]) * (c[x] - a[x]));
-        };
+    for (int axis = 0; axis < 3; ++axis) {
+        const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+        const auto side = [&](const auto&... p) { return sign_of(forms::area(p..., x, y)); };
         const auto of_edge = side(e[0], e[1], f[0]);
         if ((of_edge == positive || of_edge == negative) && side(e[0], e[1], f[1]) == of_edge &&
             side(e[0], e[1], f[2]) == of_edge)
@@ -151,9 +137,10 @@ bool crosses_at_start(const std::array<body_point, 2>& edge,
     const auto p0 = start_of(e0), p1 = start_of(e1), q0 = start_of(f0), q1 = start_of(f1),
                q2 = start_of(f2);
     constexpr kind vf = kind::vertex_face, ee = kind::edge_edge;
-    std::array side{sign_at_start<vf>({p0, q0, q1, q2}), sign_at_start<vf>({p1, q0, q1, q2})};
-    std::array turn{sign_at_start<ee>({p0, p1, q0, q1}), sign_at_start<ee>({p0, p1, q1, q2}),
-                    sign_at_start<ee>({p0, p1, q2, q0})};
+    // Y at t = 0 is this volume.
+    const auto sign = [](const auto&... p) { return sign_of(forms::volume(p...)); };
+    std::array side{sign(q1, q2, p0, q0), sign(q1, q2, p1, q0)};
+    std::array turn{sign(p1, q1, q0, p0), sign(p1, q2, q1, p0), sign(p1, q0, q2, p0)};
     // The ends are on different sides, and the edge passes all borders on one side.
     const auto may_cross = [&] {
         return possibly_negative(side[0] * side[1]) && possibly_positive(turn[0] * turn[1]) &&
