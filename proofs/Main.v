@@ -797,7 +797,7 @@ Theorem face_near_time_of :
   forall (D : R) (v f0 f1 f2 : Contact.moving) (parts : list (R -> Prop)) (o : option TimeBrackets.bracket),
   0 <= last <= 1 ->
   ~ Distance.face_near D (Contact.place v 0) (Contact.place f0 0) (Contact.place f1 0) (Contact.place f2 0) ->
-  CandidateTimes.parts_of (FirstConditions.all_face_near_asked D v f0 f1 f2) parts ->
+  CandidateTimes.parts_of (FirstConditions.all_face_near_in_time D v f0 f1 f2) parts ->
   CandidateTimes.loop double last (@None TimeBrackets.bracket) parts o -> CandidateTimes.told_until double last
     (fun t : R =>
      Distance.face_near D (Contact.place v t) (Contact.place f0 t) (Contact.place f1 t) (Contact.place f2 t)) o.

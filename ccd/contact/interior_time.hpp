@@ -115,7 +115,7 @@ class interior_time : interior_contact<Words, Forms, Effort> {
 
     /// Considers the part's root if it is certainly the only one, else returns false. If a double
     /// root is near, near() may evaluate the weights there instead. Proof:
-    /// proofs/times/InteriorTime.v, asked_root. Proof that the root at which they are evaluated is
+    /// proofs/times/InteriorTime.v, tested_root. Proof that the root at which they are evaluated is
     /// inside the part: proofs/contact/InteriorContact.v, near_here.
     constexpr bool root_of(const part& whole) {
         const bool others = this->three_real_roots_ || !this->distinct_;

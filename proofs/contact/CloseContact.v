@@ -262,14 +262,14 @@ Proof. intros L. destruct y as [| y0 [| y1 [| y2 [| y3 [|]]]]]; try discriminate
 
 (** close_contact::part: from low/2^unit_bits, 2^width_bits units wide. *)
 Record close_part := ClosePart { close_y : list Z; close_roots : sign_changes; low : Z; unit_bits : Z;
-  width_bits : Z; ask_from : Z }.
+  width_bits : Z; test_from : Z }.
 Definition bits (q : close_part) : Z := (unit_bits q - width_bits q)%Z.
 Definition close_start (q : close_part) : R := over (low q) (unit_bits q).
 Definition close_end (q : close_part) : R := over (low q + 2 ^ width_bits q) (unit_bits q).
 Definition sub_part (q : close_part) (n a w : Z) : close_part :=
   let y := sub_y (close_y q) n a w in
   ClosePart y (inner_sign_changes (map IZR y)) (low q * 2 ^ (n - width_bits q) + a)%Z
-    (unit_bits q + n - width_bits q)%Z w (ask_from q).
+    (unit_bits q + n - width_bits q)%Z w (test_from q).
 (** The position times 2^n, rounded, is `middle`. *)
 Definition around (q : close_part) (middle n : Z) : close_part :=
   sub_part q n (Z.max 0 (Z.min (middle - 1) (2 ^ n - 2))) 1.
@@ -577,23 +577,23 @@ Definition narrowed (three : bool) (q : close_part) : option close_part :=
 
 (** The result of a waiting interval: an answer, or the intervals that wait next. *)
 Definition next_of (distinct three : bool) (q : close_part) : outcome + list close_part :=
-  let ask := (ask_from q <=? bits q)%Z in
-  let known := if ask then inside_from (low q) (unit_bits q) (Some (width_bits q)) else undecided in
-  let asked := ClosePart (close_y q) (close_roots q) (low q) (unit_bits q) (width_bits q)
-    (if ask then bits q + bits q / 2 else ask_from q) in
+  let test := (test_from q <=? bits q)%Z in
+  let known := if test then inside_from (low q) (unit_bits q) (Some (width_bits q)) else undecided in
+  let tested := ClosePart (close_y q) (close_roots q) (low q) (unit_bits q) (width_bits q)
+    (if test then bits q + bits q / 2 else test_from q) in
   match known with
   | collides => inl collides
   | separate => inl separate
   | undecided =>
-      if ask && normal_vanishes_at_root distinct three q then inl separate
-      else if negb (can_be_narrowed asked) then inl undecided
+      if test && normal_vanishes_at_root distinct three q then inl separate
+      else if negb (can_be_narrowed tested) then inl undecided
       else
-        match narrowed three asked with
+        match narrowed three tested with
         | Some narrow => inr [narrow]
         | None =>
             let h := close_y q in
-            if (nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0 =? 0)%Z && contact_in_middle asked then inl collides
-            else inr [sub_part asked 1 0 0; sub_part asked 1 1 0]
+            if (nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0 =? 0)%Z && contact_in_middle tested then inl collides
+            else inr [sub_part tested 1 0 0; sub_part tested 1 1 0]
         end
   end.
 
@@ -790,43 +790,43 @@ Lemma next_of_right q : close_good q -> any_root three (close_roots q) = true ->
   end.
 Proof.
   intros G A. pose proof G as (H & Max). pose proof (close_inside y q H) as In01. unfold next_of. cbv zeta.
-  set (ask := (ask_from q <=? bits q)%Z). clearbody ask.
-  set (asked := ClosePart _ _ _ _ _ _).
-  assert (Ga : close_good asked) by exact G. assert (Na : forall r, narrower asked r -> narrower q r) by (intros r n; exact n).
-  assert (Known : forall o, (if ask then inside_from (low q) (unit_bits q) (Some (width_bits q)) else undecided) = o ->
+  set (test := (test_from q <=? bits q)%Z). clearbody test.
+  set (tested := ClosePart _ _ _ _ _ _).
+  assert (Ga : close_good tested) by exact G. assert (Na : forall r, narrower tested r -> narrower q r) by (intros r n; exact n).
+  assert (Known : forall o, (if test then inside_from (low q) (unit_bits q) (Some (width_bits q)) else undecided) = o ->
     close_answers (close_start q) (close_end q) o).
-  { intros o E. destruct ask; [| now subst].
+  { intros o E. destruct test; [| now subst].
     pose proof (fun t T => inside_from_right q t H T) as R. cbv zeta in R. rewrite E in R. destruct o; simpl; auto.
     - intros t T _. right. now apply (R t T).
     - destruct (rooted_part q G A) as (t & T & Z). exists t. split; [lra |]. split; auto. now apply (R t T). }
-  destruct (if ask then _ else undecided); try (now apply Known). clear Known.
-  destruct (ask && normal_vanishes_at_root distinct three q) eqn:V.
+  destruct (if test then _ else undecided); try (now apply Known). clear Known.
+  destruct (test && normal_vanishes_at_root distinct three q) eqn:V.
   { apply andb_prop in V. destruct V as (_ & V). intros t T Z. right. now apply (vanishes_right q). }
-  clear V. destruct (can_be_narrowed asked) eqn:C; cbn [negb]; [| easy].
-  destruct (narrowed three asked) as [r |] eqn:E.
-  { destruct (narrowed_right asked r Ga C A E) as (Nr & All). split; [constructor; [now apply Na | constructor] |].
+  clear V. destruct (can_be_narrowed tested) eqn:C; cbn [negb]; [| easy].
+  destruct (narrowed three tested) as [r |] eqn:E.
+  { destruct (narrowed_right tested r Ga C A E) as (Nr & All). split; [constructor; [now apply Na | constructor] |].
     intros t T Z. destruct (All t T Z); auto. left. exists r. split; [now left | easy]. }
   destruct (middle_of q H) as (Em & Zm). set (m := close_start q + / 2 * (close_end q - close_start q)) in *.
   pose proof H as (_ & _ & (W & U & Lo & Hi) & _).
-  assert (Inm : contact_in_middle asked = true <-> Inside m).
-  { unfold contact_in_middle, asked. cbn [low unit_bits width_bits]. rewrite <- Em, <- inside_from_place.
+  assert (Inm : contact_in_middle tested = true <-> Inside m).
+  { unfold contact_in_middle, tested. cbn [low unit_bits width_bits]. rewrite <- Em, <- inside_from_place.
     - destruct (inside_from _ _ _); split; intros X; try discriminate X; easy.
     - rewrite Z.pow_add_r by lia. pose proof (Z.pow_pos_nonneg 2 (width_bits q)). lia.
     - unfold max_bits in *. lia. }
   assert (Half : over 1 1 = / 2 /\ over 0 1 = 0 /\ over 2 1 = 1) by (unfold over; change (2 ^ 1)%Z with 2%Z; lra).
-  destruct (sub_part_is_part y asked 1 0 0 y_length H) as (_ & _ & _ & S0 & E0); [cbn [asked width_bits]; lia |].
-  destruct (sub_part_is_part y asked 1 1 0 y_length H) as (_ & _ & _ & S1 & E1); [cbn [asked width_bits]; lia |].
+  destruct (sub_part_is_part y tested 1 0 0 y_length H) as (_ & _ & _ & S0 & E0); [cbn [tested width_bits]; lia |].
+  destruct (sub_part_is_part y tested 1 1 0 y_length H) as (_ & _ & _ & S1 & E1); [cbn [tested width_bits]; lia |].
   change (0 + 2 ^ 0)%Z with 1%Z in E0. change (1 + 2 ^ 0)%Z with 2%Z in E1. destruct Half as (H1 & H0 & H2).
   rewrite H0 in S0. rewrite H1 in E0, S1. rewrite H2 in E1.
-  change (close_start asked) with (close_start q) in *. change (close_end asked) with (close_end q) in *. fold m in E0, S1.
-  destruct ((_ =? 0)%Z && contact_in_middle asked) eqn:M.
+  change (close_start tested) with (close_start q) in *. change (close_end tested) with (close_end q) in *. fold m in E0, S1.
+  destruct ((_ =? 0)%Z && contact_in_middle tested) eqn:M.
   - apply andb_prop in M. destruct M as (M0 & M1). exists m. split; [unfold m; lra |]. split; [now apply Zm | now apply Inm].
   - split.
     + constructor; [| constructor; [| constructor]]; apply Na, sub_part_narrower; auto; cbn; lia.
     + intros t T Z. destruct (Rtotal_order t m) as [L | [-> | L]].
-      * left. exists (sub_part asked 1 0 0). split; [now left | lra].
+      * left. exists (sub_part tested 1 0 0). split; [now left | lra].
       * right. right. intros I. apply Zm in Z. apply Inm in I. rewrite Z, I in M. discriminate.
-      * left. exists (sub_part asked 1 1 0). split; [right; now left | lra].
+      * left. exists (sub_part tested 1 1 0). split; [right; now left | lra].
 Qed.
 
 Theorem by_narrowing_right steps waiting found :
@@ -898,21 +898,21 @@ Lemma next_narrower distinct three q parts : close_good q -> next_of distinct th
   Forall (narrower q) parts /\ (length parts <= 2)%nat /\ (all_changes parts <= count (close_roots q))%nat.
 Proof.
   intros G. pose proof G as (H & _). pose proof (close_inside y q H) as In01. unfold next_of. cbv zeta.
-  set (ask := (ask_from q <=? bits q)%Z). clearbody ask. set (asked := ClosePart _ _ _ _ _ _).
-  assert (Ga : close_good asked) by exact G. assert (Na : forall r, narrower asked r -> narrower q r) by (intros r n; exact n).
-  destruct (if ask then _ else undecided); try discriminate. destruct (ask && _); [discriminate |].
-  destruct (can_be_narrowed asked) eqn:C; cbn [negb]; [| discriminate].
-  destruct (narrowed three asked) as [r |] eqn:E.
+  set (test := (test_from q <=? bits q)%Z). clearbody test. set (tested := ClosePart _ _ _ _ _ _).
+  assert (Ga : close_good tested) by exact G. assert (Na : forall r, narrower tested r -> narrower q r) by (intros r n; exact n).
+  destruct (if test then _ else undecided); try discriminate. destruct (test && _); [discriminate |].
+  destruct (can_be_narrowed tested) eqn:C; cbn [negb]; [| discriminate].
+  destruct (narrowed three tested) as [r |] eqn:E.
   { apply narrowed_narrower in E; auto. apply proj1, Na in E. intros I. injection I as <-. split; [constructor; auto |].
     split; [simpl; lia |]. rewrite all_changes_cons. destruct E as (_ & _ & _ & _ & E). cbn. lia. }
   destruct ((_ =? 0)%Z && _); [discriminate |]. intros I. injection I as <-.
   pose proof H as (_ & _ & (W & U & _) & _).
   assert (Half : over 1 1 = / 2 /\ over 0 1 = 0 /\ over 2 1 = 1) by (unfold over; change (2 ^ 1)%Z with 2%Z; lra).
-  destruct (sub_part_is_part y asked 1 0 0 y_length H) as (P0 & _ & _ & S0 & E0); [cbn [asked width_bits]; lia |].
-  destruct (sub_part_is_part y asked 1 1 0 y_length H) as (P1 & _ & _ & S1 & E1); [cbn [asked width_bits]; lia |].
+  destruct (sub_part_is_part y tested 1 0 0 y_length H) as (P0 & _ & _ & S0 & E0); [cbn [tested width_bits]; lia |].
+  destruct (sub_part_is_part y tested 1 1 0 y_length H) as (P1 & _ & _ & S1 & E1); [cbn [tested width_bits]; lia |].
   change (0 + 2 ^ 0)%Z with 1%Z in E0. change (1 + 2 ^ 0)%Z with 2%Z in E1. destruct Half as (H1 & H0 & H2).
   rewrite H0 in S0. rewrite H1 in E0, S1. rewrite H2 in E1.
-  change (close_start asked) with (close_start q) in *. change (close_end asked) with (close_end q) in *.
+  change (close_start tested) with (close_start q) in *. change (close_end tested) with (close_end q) in *.
   split; [| split; [simpl; lia |]].
   - constructor; [| constructor; [| constructor]]; apply Na, sub_part_narrower; auto; cbn; lia.
   - rewrite !all_changes_cons, Nat.add_0_r, (close_changes y _ P0), (close_changes y _ P1), (close_changes y q H).

@@ -804,7 +804,7 @@ Proof.
   intros N. pose proof (linear_of_multiple_right N) as M. pose proof y_length as L. unfold at_multiple_root.
   destruct linear_of_multiple as [root [[distinct three] triple]]. destruct M as (Moving & Three & One & Dist & Root).
   set (contact := match root with Some (p0, p1) => positive_at p1 (- p0) | None => false end).
-  assert (Asked : contact = true -> exists t, 0 <= t <= 1 /\ at_ y t = 0 /\ Inside t).
+  assert (Inside_somewhere : contact = true -> exists t, 0 <= t <= 1 /\ at_ y t = 0 /\ Inside t).
   { unfold contact. destruct root as [[p0 p1] |]; [| discriminate]. destruct Root as (P01 & Z & _). intros Yes.
     exists (- p0 / (p1 + - p0)). split; [| split; auto; now apply positive_at_right; [lra |]].
     split; [left; apply Rdiv_lt_0_compat; lra |]. apply Rmult_le_reg_r with (p1 + - p0); [lra |]. field_simplify; lra. }
@@ -812,7 +812,7 @@ Proof.
   { unfold contact. destruct root as [[p0 p1] |]; [| intros _ t T M D _; now apply (proj2 Root t T D)].
     destruct Root as (P01 & _ & Only & _). intros No t T M _ I. apply (Only t T) in M. subst t.
     apply positive_at_right in I; [congruence | lra]. }
-  destruct contact eqn:Found; [now split; [apply Asked |] |]. destruct triple.
+  destruct contact eqn:Found; [now split; [apply Inside_somewhere |] |]. destruct triple.
   - split; [| discriminate]. destruct root as [[p0 p1] |]; [| now destruct Root].
     destruct Root as (P01 & _ & _ & Only). intros t _ Zt I. apply (Only eq_refl) in Zt. subst t.
     apply positive_at_right in I; [unfold contact in Found; congruence | lra].

@@ -179,10 +179,10 @@ Lemma query_decides edges (q0 q1 q2 q3 : @moving_point integers) border :
   regular_contact (y_form b c p) (inside_forms edges b c p) (normal_squared b c) || border = true <->
   query_collides edges m0 m1 m2 m3.
 Proof.
-  intros m0 m1 m2 m3 Border b c p Asked.
+  intros m0 m1 m2 m3 Border b c p Valid.
   destruct (query_degrees edges q0 q1 q2 q3) as (Db & Dc & Dp), (query_lengths edges q0 q1 q2 q3) as (L & F).
   fold b c p in Db, Dc, Dp, L, F. destruct (normal_form b c 0 Db Dc) as (_ & N).
-  destruct (regular_contact_right _ _ _ Asked L F N) as (To & From).
+  destruct (regular_contact_right _ _ _ Valid L F N) as (To & From).
   pose proof (query_sides_at edges q0 q1 q2 q3) as Sides. fold b c p m0 m1 m2 m3 in Sides.
   assert (R : forall t, regular_at (y_form b c p) (inside_forms edges b c p) (normal_squared b c) t <->
     query_regular_at edges m0 m1 m2 m3 t).

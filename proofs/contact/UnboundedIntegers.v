@@ -367,8 +367,8 @@ Definition contact_meets (d : demands) (v e0 e1 : @moving_point integers) : Prop
 Theorem integer_contact_right v e0 e1 : contact_meets (promises finder) v e0 e1 -> contact v e0 e1 = true <->
   vertex_edge_collides (exact_motion v) (exact_motion e0) (exact_motion e1).
 Proof.
-  intros Asked. unfold contact. assert (D : forall q p : @moving_point integers, degree (difference q p) 1) by easy.
-  rewrite touches_right by (exact Asked || (repeat constructor; auto) || exact B).
+  intros Valid. unfold contact. assert (D : forall q p : @moving_point integers, degree (difference q p) 1) by easy.
+  rewrite touches_right by (exact Valid || (repeat constructor; auto) || exact B).
   assert (E : forall t, meets [vx (cross_form (difference v e0) (difference e1 e0)); vy (cross_form
     (difference v e0)
     (difference e1 e0)); vz (cross_form (difference v e0) (difference e1 e0))] (dot_form (difference v
@@ -407,10 +407,10 @@ Lemma edge_contact_right query (v e0 e1 : given) : edge_contact_meets (promises 
   edge_contact query v e0 e1 = true <->
   vertex_edge_collides (given_motion v) (given_motion e0) (given_motion e1).
 Proof.
-  intros Asked V E0 E1. destruct (to_integers_right query v V) as (K & Vi).
+  intros Valid V E0 E1. destruct (to_integers_right query v V) as (K & Vi).
   destruct (to_integers_right query e0 E0) as (_ & E0i).
   destruct (to_integers_right query e1 E1) as (_ & E1i). unfold edge_contact, in_integers in *.
-  rewrite andb_true_iff, negb_true_iff, (integer_contact_right _ _ _ Asked), Vi, E0i, E1i, (vertex_edge_units (unit_of
+  rewrite andb_true_iff, negb_true_iff, (integer_contact_right _ _ _ Valid), Vi, E0i, E1i, (vertex_edge_units (unit_of
     query)) by exact K.
   split; [tauto |]. intros H. split; auto. destruct (separated _ _ _) eqn:P; auto.
   now apply separated_right in P.

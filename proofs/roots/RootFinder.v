@@ -118,13 +118,13 @@ Section Isolation.
 Context (common : list Z -> list Z -> list Z) (squarefree : list Z -> list Z) (intervals : list Z -> list interval)
   (sign_there : list Z -> list Z -> interval -> sign).
 
-Definition asked (p : list Z) : Prop := trimmed p /\ (2 <= length p)%nat /\ poly p 0 <> 0.
+Definition valid (p : list Z) : Prop := trimmed p /\ (2 <= length p)%nat /\ poly p 0 <> 0.
 (** The results of the algorithms, for the given arguments. The interval may be one that earlier calls have refined:
     after_refining is a case of the relation. *)
 Definition returned : demands := {|
   of_factor := fun f g => trimmed f -> trimmed g -> CommonFactor.common_factor f g (common f g);
-  of_roots := fun p => asked p -> found_roots p (squarefree p) (intervals p);
-  of_signs := fun p g => asked p -> trimmed g -> found_roots p (squarefree p) (intervals p) /\
+  of_roots := fun p => valid p -> found_roots p (squarefree p) (intervals p);
+  of_signs := fun p g => valid p -> trimmed g -> found_roots p (squarefree p) (intervals p) /\
     forall i, In i (intervals p) -> exists s,
       RootIsolation.sign_at_root (reals_of (squarefree p)) (reals_of g) i s /\
       sign_there (squarefree p) g i = BoundedInteger.sign_of_integer s
@@ -139,14 +139,14 @@ Proof.
   - intros z [<- | I]; [exists y; auto |]. destruct (L z I) as (w & W & Q). exists w; auto.
   - intros z [<- | I]; [exists x; auto |]. destruct (R z I) as (w & W & Q). exists w; auto.
 Qed.
-Lemma located_right p k : asked p -> found_roots p (squarefree p) (intervals p) -> In k (all_roots p) -> polynomial k = squarefree p /\
+Lemma located_right p k : valid p -> found_roots p (squarefree p) (intervals p) -> In k (all_roots p) -> polynomial k = squarefree p /\
   In (place k) (intervals p) /\ isolates (reals_of (squarefree p)) (place k) (root_of k).
 Proof.
   intros A Returned I. apply in_map_iff in I. destruct I as (i & <- & I). split; [easy |]. split; [exact I |].
   destruct (found_roots_right p _ _ (proj1 A) (proj2 (proj2 A)) Returned) as (roots & F & _).
   destruct (proj1 (paired _ _ _ F) i I) as (r & _ & H). now rewrite (root_of_right _ _ r).
 Qed.
-Lemma all_roots_right p x : asked p -> found_roots p (squarefree p) (intervals p) -> (exists k, In k (all_roots p) /\ root_of k = x) <-> 0 < x /\ poly p x = 0.
+Lemma all_roots_right p x : valid p -> found_roots p (squarefree p) (intervals p) -> (exists k, In k (all_roots p) /\ root_of k = x) <-> 0 < x /\ poly p x = 0.
 Proof.
   intros A Returned. destruct (found_roots_right p _ _ (proj1 A) (proj2 (proj2 A)) Returned) as (roots & F & _ & R).
   rewrite <- R. destruct (paired _ _ _ F) as (To & From). split.
@@ -155,7 +155,7 @@ Proof.
   - intros I. destruct (From x I) as (i & Ii & H). exists (Located (squarefree p) i).
     split; [now apply in_map | now apply root_of_right].
 Qed.
-Lemma sign_there_right p g k : asked p -> trimmed g -> of_signs returned p g -> In k (all_roots p) ->
+Lemma sign_there_right p g k : valid p -> trimmed g -> of_signs returned p g -> In k (all_roots p) ->
   tells (sign_there (polynomial k) g (place k)) (poly g (root_of k)).
 Proof.
   intros A T M I. destruct (M A T) as (Returned & Signs).

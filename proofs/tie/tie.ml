@@ -396,7 +396,7 @@ let write ?(only = fun _ -> true) f =
 (* Operations that differ with fused multiply-add. *)
 let write_fused f =
   let fused = { f with name = f.name ^ ",fma"; fused = true } in
-  let asks name =
+  let chosen name =
     List.mem name [ "two_product"; "remainder_of_division" ] ||
     List.exists (fun rule ->
         List.exists (fun operation -> List.mem name [ rule ^ operation; rule ^ operation ^ "_exact" ])
@@ -405,7 +405,7 @@ let write_fused f =
     List.exists (fun rule -> List.mem name [ rule ^ ".sqrt"; rule ^ ".sqrt_exact" ])
       [ "tight"; "sharp"; "safe"; "interval"; "residual"; "relative"; "affine" ] ||
     List.mem name [ "residual.fma"; "residual.fma_exact"; "affine.fma"; "affine.fma_exact" ] in
-  write ~only:asks fused
+  write ~only:chosen fused
 
 (* Integers of n words: words of zeros, of ones, with one bit, and random ones. Each word is put as two of 32 bits,
    the upper first. *)

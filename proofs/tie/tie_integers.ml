@@ -189,7 +189,7 @@ let put_part q =
   List.iter put_number q.close_y;
   put_number q.low;
   put_word q.close_roots.count;
-  List.iter (fun n -> put_word (Z.to_int n)) [ q.unit_bits; q.width_bits; q.ask_from; bits q ];
+  List.iter (fun n -> put_word (Z.to_int n)) [ q.unit_bits; q.width_bits; q.test_from; bits q ];
   put_bool (can_be_narrowed q)
 
 (* The subintervals of a decision to the end, one after the other, and its result from the last one. *)
@@ -199,7 +199,7 @@ let put_parts f =
   let rec go_on path q =
     put_part q;
     if not (any_root three q.close_roots && can_be_narrowed q) then begin
-      let from_last = { q with ask_from = Z.add (bits q) (Z.of_int (path land 1)) } in
+      let from_last = { q with test_from = Z.add (bits q) (Z.of_int (path land 1)) } in
       put_outcome
         (by_narrowing edges b c p root_middle root_exponent estimated_pair distinct three steps
            (that_wait three [ from_last ]) Separate)
@@ -226,7 +226,7 @@ let put_deep d =
   let _, ((distinct, three), _) = linear_of_multiple b c p in
   let part y bits from =
     { close_y = y; close_roots = inner_sign_changes y; low = Z.zero; unit_bits = Z.of_int bits; width_bits = Z.zero;
-      ask_from = Z.of_int from } in
+      test_from = Z.of_int from } in
   let deep = part [ Z.minus_one; Z.shift_left Z.one d.root_bits; Z.zero; Z.one ] d.deep_bits d.deep_from in
   put_outcome
     (by_narrowing edges b c p root_middle root_exponent estimated_pair distinct three steps [ deep ] Separate);

@@ -13,19 +13,19 @@ Open Scope R_scope.
 
 (** ** Conditions: ccd/contact/condition.hpp *)
 
-Record asked := Asked { vanishing : list (R -> R); nonnegative : list (R -> R); not_all_zero : list (R -> R);
-  also_below : bool }.
-Definition sides_hold (c : asked) (t : R) : Prop :=
+Record condition_in_time := ConditionInTime { vanishing : list (R -> R); nonnegative : list (R -> R);
+  not_all_zero : list (R -> R); also_below : bool }.
+Definition sides_hold (c : condition_in_time) (t : R) : Prop :=
   (forall p, In p (nonnegative c) -> 0 <= p t) /\
   (not_all_zero c = [] \/ exists p, In p (not_all_zero c) /\ p t <> 0).
-Definition is_met (c : asked) (t : R) : Prop :=
+Definition is_met (c : condition_in_time) (t : R) : Prop :=
   (forall p, In p (vanishing c) -> p t = 0 \/ (also_below c = true /\ p t < 0)) /\ sides_hold c t.
-Definition vanish_at (c : asked) (t : R) : Prop := forall p, In p (vanishing c) -> p t = 0.
+Definition vanish_at (c : condition_in_time) (t : R) : Prop := forall p, In p (vanishing c) -> p t = 0.
 
 Definition identically_0 (p : R -> R) : Prop := forall t, p t = 0.
 (** A root of the result of `candidates` (for several vanishing polynomials, of their common factor) at which the
     sides hold. *)
-Definition candidate (c : asked) (t : R) : Prop :=
+Definition candidate (c : condition_in_time) (t : R) : Prop :=
   vanishing c <> [] /\ sides_hold c t /\ vanish_at c t /\
   ((exists p, In p (vanishing c) /\ ~ identically_0 p) \/
    exists p, In p (nonnegative c) /\ ~ identically_0 p /\ p t = 0).
@@ -58,7 +58,7 @@ Qed.
 (** If the first time at which one of the conditions holds is not 0, it is a candidate. Hypotheses: if a condition
     without `vanishing` holds then, another one does; if one holds that is `also_below`, its polynomial is zero, not
     negative. *)
-Theorem first_is_candidate (cs : list asked) t :
+Theorem first_is_candidate (cs : list condition_in_time) t :
   (forall c p, In c cs -> In p (vanishing c) \/ In p (nonnegative c) \/ In p (not_all_zero c) -> continuity p) ->
   first (fun s => exists c, In c cs /\ is_met c s) t -> t <> 0 ->
   (forall c, In c cs -> is_met c t -> vanishing c = [] ->
@@ -113,8 +113,8 @@ Proof. intros (S0 & S1 & S2) [<- | [<- | [<- | []]]]; auto. Qed.
 
 (** A moving point's difference from another. *)
 Definition from (p q : moving) (t : R) : point := minus (place p t) (place q t).
-Definition vertices_asked (v w : moving) : asked := Asked (components (from v w)) [] [] false.
-Definition vertex_edge_asked (v e0 e1 : moving) : asked := Asked
+Definition vertices_in_time (v w : moving) : condition_in_time := ConditionInTime (components (from v w)) [] [] false.
+Definition vertex_edge_in_time (v e0 e1 : moving) : condition_in_time := ConditionInTime
   (components (fun t => cross (from v e0 t) (from e1 e0 t))) [fun t => dot (from v e0 t) (from e1 v t)] [] false.
 Definition face_weights (v f0 f1 f2 : moving) : list (R -> R) :=
   [fun t => weight_2 (from f1 f0 t) (from f2 f0 t) (from v f0 t);
@@ -138,19 +138,19 @@ Proof. intros [<- | [<- | [<- | []]]]; from_continuous. Qed.
 Lemma edges_weights_continuous a0 a1 b0 b1 p : In p (edges_weights a0 a1 b0 b1) -> continuity p.
 Proof. intros [<- | [<- | [<- | [<- | []]]]]; from_continuous. Qed.
 
-Lemma vertices_met v w t : is_met (vertices_asked v w) t <-> place v t = place w t.
+Lemma vertices_met v w t : is_met (vertices_in_time v w) t <-> place v t = place w t.
 Proof.
-  unfold is_met, sides_hold. cbn [vanishing nonnegative not_all_zero also_below vertices_asked]. split.
+  unfold is_met, sides_hold. cbn [vanishing nonnegative not_all_zero also_below vertices_in_time]. split.
   - intros (V & _). assert (E : from v w t = origin).
     { apply components_0. intros p P. destruct (V p P) as [|(H & _)]; [easy | discriminate]. }
     apply near_0. unfold near. fold (from v w t). rewrite E. right. coordinates. ring.
   - intros E. split; [| split; [easy | now left]]. intros p P. left. revert p P. apply components_0.
     unfold from. rewrite E. coordinates. apply same_point; simpl; ring.
 Qed.
-Lemma vertex_edge_met v e0 e1 t : is_met (vertex_edge_asked v e0 e1) t <-> vertex_on_edge v e0 e1 t.
+Lemma vertex_edge_met v e0 e1 t : is_met (vertex_edge_in_time v e0 e1) t <-> vertex_on_edge v e0 e1 t.
 Proof.
   unfold is_met, sides_hold, vertex_on_edge. rewrite vertex_edge_contact. unfold vertex_edge_test.
-  cbn [vanishing nonnegative not_all_zero also_below vertex_edge_asked].
+  cbn [vanishing nonnegative not_all_zero also_below vertex_edge_in_time].
   assert (D : dot (from v e0 t) (from e1 v t) = - dot (minus (place v t) (place e0 t)) (minus (place v t) (place e1 t)))
     by (unfold from; coordinates; ring).
   split.
@@ -162,9 +162,9 @@ Proof.
     + intros p P. left. revert p P. now apply (proj2 (components_0 (fun t => cross (from v e0 t) (from e1 e0 t)) t)).
     + intros p [<- | []]. lra.
 Qed.
-Lemma vertex_edge_asked_continuous v e0 e1 p :
-  In p (vanishing (vertex_edge_asked v e0 e1)) \/ In p (nonnegative (vertex_edge_asked v e0 e1)) \/
-  In p (not_all_zero (vertex_edge_asked v e0 e1)) -> continuity p.
+Lemma vertex_edge_in_time_continuous v e0 e1 p :
+  In p (vanishing (vertex_edge_in_time v e0 e1)) \/ In p (nonnegative (vertex_edge_in_time v e0 e1)) \/
+  In p (not_all_zero (vertex_edge_in_time v e0 e1)) -> continuity p.
 Proof.
   intros [H | [[<- | []] | []]].
   - apply components_continuous in H; auto. from_continuous.
@@ -179,9 +179,9 @@ Lemma not_below c t : also_below c = false -> is_met c t -> vanish_at c t.
 Proof. intros B (V & _) p P. destruct (V p P) as [| (H & _)]; auto. congruence. Qed.
 
 Theorem vertices_candidate v w t : first (fun s => place v s = place w s) t -> t <> 0 ->
-  candidate (vertices_asked v w) t.
+  candidate (vertices_in_time v w) t.
 Proof.
-  intros F N. destruct (first_is_candidate [vertices_asked v w] t) as (c & [<- | []] & C); auto.
+  intros F N. destruct (first_is_candidate [vertices_in_time v w] t) as (c & [<- | []] & C); auto.
   - intros c p [<- | []] [H | [[] | []]]. apply components_continuous in H; auto. apply smooth_from.
   - revert F. apply same_first_time. intros s _. rewrite <- vertices_met. simpl.
     split; [intros H; eauto | intros (c & [<- | []] & H); exact H].
@@ -189,10 +189,10 @@ Proof.
   - intros c [<- | []]. now apply not_below.
 Qed.
 Theorem vertex_edge_candidate v e0 e1 t : first (vertex_on_edge v e0 e1) t -> t <> 0 ->
-  candidate (vertex_edge_asked v e0 e1) t.
+  candidate (vertex_edge_in_time v e0 e1) t.
 Proof.
-  intros F N. destruct (first_is_candidate [vertex_edge_asked v e0 e1] t) as (c & [<- | []] & C); auto.
-  - intros c p [<- | []]. apply vertex_edge_asked_continuous.
+  intros F N. destruct (first_is_candidate [vertex_edge_in_time v e0 e1] t) as (c & [<- | []] & C); auto.
+  - intros c p [<- | []]. apply vertex_edge_in_time_continuous.
   - revert F. apply same_first_time. intros s _. rewrite <- vertex_edge_met. simpl.
     split; [intros H; eauto | intros (c & [<- | []] & H); exact H].
   - intros c [<- | []] _ E. discriminate.
@@ -200,17 +200,17 @@ Proof.
 Qed.
 
 (** contact_conditions, if Y = 0 throughout. *)
-Definition face_border_asked (v f0 f1 f2 : moving) : list asked :=
-  [vertex_edge_asked v f0 f1; vertex_edge_asked v f1 f2; vertex_edge_asked v f2 f0].
-Definition edges_border_asked (a0 a1 b0 b1 : moving) : list asked :=
-  [vertex_edge_asked a0 b0 b1; vertex_edge_asked a1 b0 b1; vertex_edge_asked b0 a0 a1; vertex_edge_asked b1 a0 a1].
-Definition query_border_asked (edges : bool) : moving -> moving -> moving -> moving -> list asked :=
-  if edges then edges_border_asked else face_border_asked.
-Lemma query_border_asked_of edges m0 m1 m2 m3 c : In c (query_border_asked edges m0 m1 m2 m3) ->
-  exists v e0 e1, c = vertex_edge_asked v e0 e1.
+Definition face_border_in_time (v f0 f1 f2 : moving) : list condition_in_time :=
+  [vertex_edge_in_time v f0 f1; vertex_edge_in_time v f1 f2; vertex_edge_in_time v f2 f0].
+Definition edges_border_in_time (a0 a1 b0 b1 : moving) : list condition_in_time :=
+  [vertex_edge_in_time a0 b0 b1; vertex_edge_in_time a1 b0 b1; vertex_edge_in_time b0 a0 a1; vertex_edge_in_time b1 a0 a1].
+Definition query_border_in_time (edges : bool) : moving -> moving -> moving -> moving -> list condition_in_time :=
+  if edges then edges_border_in_time else face_border_in_time.
+Lemma query_border_in_time_of edges m0 m1 m2 m3 c : In c (query_border_in_time edges m0 m1 m2 m3) ->
+  exists v e0 e1, c = vertex_edge_in_time v e0 e1.
 Proof. destruct edges; intros I; repeat (destruct I as [<- | I]; [eauto |]); destruct I. Qed.
 Lemma query_border_met edges m0 m1 m2 m3 t :
-  (exists c, In c (query_border_asked edges m0 m1 m2 m3) /\ is_met c t) <-> query_on_border edges m0 m1 m2 m3 t.
+  (exists c, In c (query_border_in_time edges m0 m1 m2 m3) /\ is_met c t) <-> query_on_border edges m0 m1 m2 m3 t.
 Proof.
   unfold query_on_border, on_edges_border, on_face_border. destruct edges; rewrite <- !vertex_edge_met;
     (split; [intros (c & I & H); repeat (destruct I as [<- | I]; [auto |]); destruct I |]);
@@ -219,85 +219,85 @@ Proof.
 Qed.
 Lemma query_planar_candidate edges m0 m1 m2 m3 t : (forall s, 0 <= s <= 1 -> query_y edges m0 m1 m2 m3 s = 0) ->
   first (query_touches edges m0 m1 m2 m3) t -> t <> 0 ->
-  exists c, In c (query_border_asked edges m0 m1 m2 m3) /\ candidate c t.
+  exists c, In c (query_border_in_time edges m0 m1 m2 m3) /\ candidate c t.
 Proof.
   intros Y F N. assert (B : query_on_border edges m0 m1 m2 m3 t)
     by (destruct (query_planar_first edges m0 m1 m2 m3 t Y F); easy).
-  pose proof (query_border_asked_of edges m0 m1 m2 m3) as Asked. apply first_is_candidate; auto.
-  - intros c p I. destruct (Asked c I) as (v & e0 & e1 & ->). apply vertex_edge_asked_continuous.
+  pose proof (query_border_in_time_of edges m0 m1 m2 m3) as Of. apply first_is_candidate; auto.
+  - intros c p I. destruct (Of c I) as (v & e0 & e1 & ->). apply vertex_edge_in_time_continuous.
   - destruct F as (T & _ & Before). split; auto. split; [now apply query_border_met |].
     intros s S Q. apply query_border_met in Q. apply (Before s S), query_times. now right.
-  - intros c I _ E. destruct (Asked c I) as (v & e0 & e1 & ->). discriminate.
-  - intros c I. destruct (Asked c I) as (v & e0 & e1 & ->). now apply not_below.
+  - intros c I _ E. destruct (Of c I) as (v & e0 & e1 & ->). discriminate.
+  - intros c I. destruct (Of c I) as (v & e0 & e1 & ->). now apply not_below.
 Qed.
 Theorem face_planar_candidate v f0 f1 f2 t : (forall s, 0 <= s <= 1 -> face_y v f0 f1 f2 s = 0) ->
-  first (face_touches v f0 f1 f2) t -> t <> 0 -> exists c, In c (face_border_asked v f0 f1 f2) /\ candidate c t.
+  first (face_touches v f0 f1 f2) t -> t <> 0 -> exists c, In c (face_border_in_time v f0 f1 f2) /\ candidate c t.
 Proof. exact (query_planar_candidate false v f0 f1 f2 t). Qed.
 Theorem edges_planar_candidate a0 a1 b0 b1 t : (forall s, 0 <= s <= 1 -> edges_y a0 a1 b0 b1 s = 0) ->
-  first (edges_touch a0 a1 b0 b1) t -> t <> 0 -> exists c, In c (edges_border_asked a0 a1 b0 b1) /\ candidate c t.
+  first (edges_touch a0 a1 b0 b1) t -> t <> 0 -> exists c, In c (edges_border_in_time a0 a1 b0 b1) /\ candidate c t.
 Proof. exact (query_planar_candidate true a0 a1 b0 b1 t). Qed.
 
 (** ** Distance: distance_condition of ccd/contact/feature_conditions.hpp *)
 
-Definition corner_asked (D : R) (v w : moving) : asked :=
-  Asked [fun t => dot (from v w t) (from v w t) - D * 1] [] [] true.
-Definition edge_asked (D : R) (v e0 e1 : moving) : asked := Asked
+Definition corner_in_time (D : R) (v w : moving) : condition_in_time :=
+  ConditionInTime [fun t => dot (from v w t) (from v w t) - D * 1] [] [] true.
+Definition edge_in_time (D : R) (v e0 e1 : moving) : condition_in_time := ConditionInTime
   [fun t => dot (cross (from e1 e0 t) (from v e0 t)) (cross (from e1 e0 t) (from v e0 t))
      - D * dot (from e1 e0 t) (from e1 e0 t)]
   [fun t => dot (from v e0 t) (from e1 e0 t); fun t => dot (from e1 v t) (from e1 e0 t)]
   (components (from e1 e0)) true.
-Definition face_near_asked (D : R) (v f0 f1 f2 : moving) : asked := Asked
+Definition face_near_in_time (D : R) (v f0 f1 f2 : moving) : condition_in_time := ConditionInTime
   [fun t => face_y v f0 f1 f2 t * face_y v f0 f1 f2 t - D * square_normal (from f1 f0 t) (from f2 f0 t)]
   (face_weights v f0 f1 f2) (components (face_normal f0 f1 f2)) true.
-Definition edges_near_asked (D : R) (a0 a1 b0 b1 : moving) : asked := Asked
+Definition edges_near_in_time (D : R) (a0 a1 b0 b1 : moving) : condition_in_time := ConditionInTime
   [fun t => edges_y a0 a1 b0 b1 t * edges_y a0 a1 b0 b1 t - D * square_normal (from a1 a0 t) (from b1 b0 t)]
   (edges_weights a0 a1 b0 b1) (components (edges_normal a0 a1 b0 b1)) true.
-Definition vertex_edge_near_asked (D : R) (v e0 e1 : moving) : list asked :=
-  [corner_asked D v e0; corner_asked D v e1; edge_asked D v e0 e1].
-Definition all_face_near_asked (D : R) (v f0 f1 f2 : moving) : list asked :=
-  [corner_asked D v f0; corner_asked D v f1; corner_asked D v f2;
-   edge_asked D v f0 f1; edge_asked D v f1 f2; edge_asked D v f2 f0; face_near_asked D v f0 f1 f2].
-Definition all_edges_near_asked (D : R) (a0 a1 b0 b1 : moving) : list asked :=
-  [corner_asked D a0 b0; corner_asked D a0 b1; corner_asked D a1 b0; corner_asked D a1 b1;
-   edge_asked D a0 b0 b1; edge_asked D a1 b0 b1; edge_asked D b0 a0 a1; edge_asked D b1 a0 a1;
-   edges_near_asked D a0 a1 b0 b1].
+Definition vertex_edge_near_in_time (D : R) (v e0 e1 : moving) : list condition_in_time :=
+  [corner_in_time D v e0; corner_in_time D v e1; edge_in_time D v e0 e1].
+Definition all_face_near_in_time (D : R) (v f0 f1 f2 : moving) : list condition_in_time :=
+  [corner_in_time D v f0; corner_in_time D v f1; corner_in_time D v f2;
+   edge_in_time D v f0 f1; edge_in_time D v f1 f2; edge_in_time D v f2 f0; face_near_in_time D v f0 f1 f2].
+Definition all_edges_near_in_time (D : R) (a0 a1 b0 b1 : moving) : list condition_in_time :=
+  [corner_in_time D a0 b0; corner_in_time D a0 b1; corner_in_time D a1 b0; corner_in_time D a1 b1;
+   edge_in_time D a0 b0 b1; edge_in_time D a1 b0 b1; edge_in_time D b0 a0 a1; edge_in_time D b1 a0 a1;
+   edges_near_in_time D a0 a1 b0 b1].
 
 (** The condition at time t is that of Distance.v. *)
-Definition asks (D t : R) (c : asked) (k : condition) : Prop :=
+Definition same_at (D t : R) (c : condition_in_time) (k : condition) : Prop :=
   (sides_hold c t <-> sides k) /\ also_below c = true /\ exists z, vanishing c = [z] /\ z t = excess D k.
-Lemma asks_met D t c k : asks D t c k -> (is_met c t <-> holds D k).
+Lemma same_at_met D t c k : same_at D t c k -> (is_met c t <-> holds D k).
 Proof.
   intros (S & B & z & V & E). unfold is_met, holds. rewrite S, V, B, <- E. split; intros (P & Q).
   - split; auto. destruct (P z (or_introl eq_refl)) as [| (_ & L)]; lra.
   - split; auto. intros p [<- | []]. destruct (Req_dec (z t) 0); [now left | right]. split; auto. lra.
 Qed.
-Lemma asks_corner D v w t : asks D t (corner_asked D v w) (corner_condition (place v t) (place w t)).
+Lemma same_at_corner D v w t : same_at D t (corner_in_time D v w) (corner_condition (place v t) (place w t)).
 Proof.
   split; [| split; [easy | eexists; split; reflexivity]]. unfold sides_hold. cbn. split; [easy |].
   intros _. split; [easy | now left].
 Qed.
 Ltac asks_sides := split; [| split; [easy | eexists; split; reflexivity]]; unfold sides_hold;
-  cbn [nonnegative not_all_zero edge_asked face_near_asked edges_near_asked
+  cbn [nonnegative not_all_zero edge_in_time face_near_in_time edges_near_in_time
     sides edge_condition face_condition edges_condition];
   unfold face_weights, edges_weights; rewrite <- Forall_forall, !Forall_cons_iff, components_not_0;
   unfold face_normal, edges_normal, from; intuition.
-Lemma asks_edge D v e0 e1 t :
-  asks D t (edge_asked D v e0 e1) (edge_condition (place v t) (place e0 t) (place e1 t)).
+Lemma same_at_edge D v e0 e1 t :
+  same_at D t (edge_in_time D v e0 e1) (edge_condition (place v t) (place e0 t) (place e1 t)).
 Proof. asks_sides. Qed.
-Lemma asks_face D v f0 f1 f2 t : asks D t (face_near_asked D v f0 f1 f2)
+Lemma same_at_face D v f0 f1 f2 t : same_at D t (face_near_in_time D v f0 f1 f2)
   (face_condition (place v t) (place f0 t) (place f1 t) (place f2 t)).
 Proof. asks_sides. Qed.
-Lemma asks_edges D a0 a1 b0 b1 t : asks D t (edges_near_asked D a0 a1 b0 b1)
+Lemma same_at_edges D a0 a1 b0 b1 t : same_at D t (edges_near_in_time D a0 a1 b0 b1)
   (edges_condition (place a0 t) (place a1 t) (place b0 t) (place b1 t)).
 Proof. asks_sides. Qed.
 
-Definition all_continuous (c : asked) : Prop := forall p,
+Definition all_continuous (c : condition_in_time) : Prop := forall p,
   In p (vanishing c) \/ In p (nonnegative c) \/ In p (not_all_zero c) -> continuity p.
 Lemma cont_excess f g D : continuity f -> continuity g -> continuity (fun t => f t - D * g t).
 Proof. intros F G. apply cont_minus; auto. apply cont_mult; auto. apply cont_const. Qed.
-Lemma corner_continuous D v w : all_continuous (corner_asked D v w).
+Lemma corner_continuous D v w : all_continuous (corner_in_time D v w).
 Proof. intros p [[<- | []] | [[] | []]]. apply cont_excess; [from_continuous | apply cont_const]. Qed.
-Lemma edge_continuous D v e0 e1 : all_continuous (edge_asked D v e0 e1).
+Lemma edge_continuous D v e0 e1 : all_continuous (edge_in_time D v e0 e1).
 Proof.
   intros p [[<- | []] | [[<- | [<- | []]] | H]].
   - apply cont_excess; from_continuous.
@@ -305,7 +305,7 @@ Proof.
   - from_continuous.
   - apply components_continuous in H; auto. apply smooth_from.
 Qed.
-Lemma face_continuous D v f0 f1 f2 : all_continuous (face_near_asked D v f0 f1 f2).
+Lemma face_continuous D v f0 f1 f2 : all_continuous (face_near_in_time D v f0 f1 f2).
 Proof.
   intros p [[<- | []] | [H | H]].
   - assert (continuity (face_y v f0 f1 f2))
@@ -314,7 +314,7 @@ Proof.
   - now apply face_weights_continuous in H.
   - apply components_continuous in H; auto. unfold face_normal. from_continuous.
 Qed.
-Lemma edges_continuous D a0 a1 b0 b1 : all_continuous (edges_near_asked D a0 a1 b0 b1).
+Lemma edges_continuous D a0 a1 b0 b1 : all_continuous (edges_near_in_time D a0 a1 b0 b1).
 Proof.
   intros p [[<- | []] | [H | H]].
   - assert (continuity (edges_y a0 a1 b0 b1))
@@ -330,20 +330,20 @@ Proof.
   - apply (Ft s); auto. lra.
   - apply (Fs t); auto. lra.
 Qed.
-Lemma asked_pairs D s cs ks : Forall2 (asks D s) cs ks ->
-  (forall c, In c cs -> exists k, In k ks /\ asks D s c k) /\
+Lemma same_at_pairs D s cs ks : Forall2 (same_at D s) cs ks ->
+  (forall c, In c cs -> exists k, In k ks /\ same_at D s c k) /\
   (Exists (holds D) ks <-> exists c, In c cs /\ is_met c s).
 Proof.
   intros A. induction A as [| c k cs ks P F2 (IH1 & IH2)].
   - split; [easy |]. rewrite Exists_nil. split; [easy | now intros (c & [] & _)].
   - split.
     + intros c' [<- | I]; [exists k; simpl; auto |]. destruct (IH1 c' I) as (k' & Ik & Ask). exists k'. simpl. auto.
-    + rewrite Exists_cons, IH2, <- (asks_met D s c k P). simpl. split.
+    + rewrite Exists_cons, IH2, <- (same_at_met D s c k P). simpl. split.
       * intros [H | (c' & I & H)]; eauto.
       * intros (c' & [<- | I] & H); eauto.
 Qed.
 Lemma near_candidate D (near_at : R -> Prop) cs conditions t : Forall all_continuous cs ->
-  (forall s, Forall2 (asks D s) cs (conditions s)) -> (forall s, near_at s <-> Exists (holds D) (conditions s)) ->
+  (forall s, Forall2 (same_at D s) cs (conditions s)) -> (forall s, near_at s <-> Exists (holds D) (conditions s)) ->
   (sometime near_at -> exists s, first near_at s /\ (s = 0 \/ met D (conditions s))) ->
   first near_at t -> t <> 0 -> exists c, In c cs /\ candidate c t.
 Proof.
@@ -351,52 +351,52 @@ Proof.
   assert (M : met D (conditions t)).
   { destruct Within as (s & Fs & M); [exists t; split; apply F |]. rewrite <- (first_unique _ _ _ Fs F) in *.
     now destruct M. }
-  pose proof (fun s => asked_pairs D s cs (conditions s) (A s)) as Pairs.
+  pose proof (fun s => same_at_pairs D s cs (conditions s) (A s)) as Pairs.
   apply first_is_candidate; auto.
   - intros c p I. now apply C.
   - revert F. apply same_first_time. intros s _. rewrite Near. apply Pairs.
   - intros c I _ E. destruct (proj1 (Pairs t) c I) as (k & _ & _ & _ & z & V & _). congruence.
   - intros c I Met p P. destruct (proj1 (Pairs t) c I) as (k & Ik & Ask).
-    pose proof (proj1 (asks_met D t c k Ask) Met) as (S & L). destruct Ask as (_ & _ & z & V & E).
+    pose proof (proj1 (same_at_met D t c k Ask) Met) as (S & L). destruct Ask as (_ & _ & z & V & E).
     rewrite V in P. destruct P as [<- | []]. rewrite E. pose proof (proj2 M k Ik S). lra.
 Qed.
 
 Theorem vertices_near_candidate D v w t : first (fun s => near D (place v s) (place w s)) t -> t <> 0 ->
-  candidate (corner_asked D v w) t.
+  candidate (corner_in_time D v w) t.
 Proof.
-  intros F N. enough (exists c, In c [corner_asked D v w] /\ candidate c t) as (c & [<- | []] & C) by auto.
+  intros F N. enough (exists c, In c [corner_in_time D v w] /\ candidate c t) as (c & [<- | []] & C) by auto.
   apply near_candidate with (5 := F) (conditions := fun s => vertices_conditions (place v s) (place w s)) (D := D); auto.
   - apply Forall_cons; [apply corner_continuous | apply Forall_nil].
-  - intros s. apply Forall2_cons; [apply asks_corner | apply Forall2_nil].
+  - intros s. apply Forall2_cons; [apply same_at_corner | apply Forall2_nil].
   - intros s. unfold vertices_conditions. rewrite Exists_cons, Exists_nil, corner_holds. tauto.
   - apply vertices_first_within.
 Qed.
-Ltac near_candidate_of asked_at union within :=
-  intros F N; eapply near_candidate with (5 := F) (conditions := asked_at);
+Ltac near_candidate_of conditions_at union within :=
+  intros F N; eapply near_candidate with (5 := F) (conditions := conditions_at);
   [ repeat (apply Forall_cons;
       [auto using corner_continuous, edge_continuous, face_continuous, edges_continuous |]); apply Forall_nil
-  | intros s; repeat (apply Forall2_cons; [auto using asks_corner, asks_edge, asks_face, asks_edges |]);
+  | intros s; repeat (apply Forall2_cons; [auto using same_at_corner, same_at_edge, same_at_face, same_at_edges |]);
       apply Forall2_nil
   | intros s; apply union
   | apply within
   | exact N ].
 Theorem vertex_edge_near_candidate D v e0 e1 t :
   first (fun s => vertex_edge_near D (place v s) (place e0 s) (place e1 s)) t -> t <> 0 ->
-  exists c, In c (vertex_edge_near_asked D v e0 e1) /\ candidate c t.
+  exists c, In c (vertex_edge_near_in_time D v e0 e1) /\ candidate c t.
 Proof.
   near_candidate_of (fun s => vertex_edge_conditions (place v s) (place e0 s) (place e1 s))
     vertex_edge_within vertex_edge_first_within.
 Qed.
 Theorem face_near_candidate D v f0 f1 f2 t :
   first (fun s => face_near D (place v s) (place f0 s) (place f1 s) (place f2 s)) t -> t <> 0 ->
-  exists c, In c (all_face_near_asked D v f0 f1 f2) /\ candidate c t.
+  exists c, In c (all_face_near_in_time D v f0 f1 f2) /\ candidate c t.
 Proof.
   near_candidate_of (fun s => face_conditions (place v s) (place f0 s) (place f1 s) (place f2 s))
     face_within_union face_first_within.
 Qed.
 Theorem edges_near_candidate D a0 a1 b0 b1 t :
   first (fun s => edges_near D (place a0 s) (place a1 s) (place b0 s) (place b1 s)) t -> t <> 0 ->
-  exists c, In c (all_edges_near_asked D a0 a1 b0 b1) /\ candidate c t.
+  exists c, In c (all_edges_near_in_time D a0 a1 b0 b1) /\ candidate c t.
 Proof.
   near_candidate_of (fun s => edges_conditions (place a0 s) (place a1 s) (place b0 s) (place b1 s))
     edges_within_union edges_first_within.

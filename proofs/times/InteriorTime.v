@@ -1,10 +1,9 @@
 (** The first contact inside a face or both edges in integers of fixed width (ccd/contact/interior_time.hpp). From it
     follows the first contact of vertex and face, or of two edges (ccd/contact/integer_first_contact.hpp). Estimates
     are arbitrary, as in InteriorContact.v. The search by signs has the properties that TimeSearch.v proves. Results:
-        asked_root            an interval that `root_of` tests has one root of Y, where Y changes its sign
+        tested_root           an interval that `root_of` tests has one root of Y, where Y changes its sign
         in_parts_right        roots of Y in waiting intervals are tested, each with its bracket, or are later than
-            the
-                              result; except for a double root, which was tested before
+                              the result; except for a double root, which was tested before
         in_parts_ends         the loop ends (at most three intervals wait: three_parts_wait of InteriorContact.v)
         interior_time_right   `find` returns the first time with Y = 0 and all G_i > 0; if Y = 0 throughout, it tests
                               both ends
@@ -43,7 +42,7 @@ Variable place_of : R -> Z -> Z.
 (** ** Intervals *)
 
 Definition strictly (s t : R) : outcome := if positive_at s t then collides else separate.
-Definition asked (distinct three : bool) (q : part) : bool :=
+Definition tested (distinct three : bool) (q : part) : bool :=
   opposite (roots q) && negb (Nat.ltb 1 (count (roots q)) && (three || negb distinct)).
 Definition root_answer (distinct : bool) (q : part) : outcome :=
   let bits := Z.min (level q + 48) 62 in
@@ -63,7 +62,7 @@ Fixpoint in_parts (distinct three : bool) (steps : nat) (waiting : list part) (s
   | _, [] => s
   | Datatypes.S steps, q :: rest =>
       if Rlt_dec (part_start q) (fst (first_found s)) then
-        if asked distinct three q then in_parts distinct three steps rest (consider s (part_root q) (root_answer distinct q))
+        if tested distinct three q then in_parts distinct three steps rest (consider s (part_root q) (root_answer distinct q))
         else if (level q =? max_halvings)%Z then in_parts distinct three steps rest (consider s None undecided)
         else
           let h := part_y q in
@@ -89,13 +88,13 @@ Proof.
   intros I. apply Q in I. discriminate.
 Qed.
 
-Theorem asked_root distinct three D q : known_but distinct three D -> is_part y q -> asked distinct three q = true ->
+Theorem tested_root distinct three D q : known_but distinct three D -> is_part y q -> tested distinct three q = true ->
   opposite (roots q) = true /\ (forall Q, crosses_once (part_start q) (part_end q) (at_ y) Q) /\
   exists r, part_start q < r < part_end q /\ at_ y r = 0 /\ forall t, part_start q < t < part_end q ->
     (at_ y t = 0 -> t = r) /\ (0 < at_ y t * unit_of (CubicRoots.first (roots q)) -> t < r) /\
     (at_ y t * unit_of (CubicRoots.first (roots q)) < 0 -> r < t).
 Proof.
-  intros (_ & _ & One & Dist) H A. unfold asked in A. apply andb_prop in A. destruct A as (O & A).
+  intros (_ & _ & One & Dist) H A. unfold tested in A. apply andb_prop in A. destruct A as (O & A).
   pose proof (part_inside y q H) as In01.
   assert (Once : forall Q, crosses_once (part_start q) (part_end q) (at_ y) Q).
   { intros Q. apply negb_true_iff, andb_false_iff in A. destruct A as [A | A].
@@ -125,11 +124,11 @@ Proof.
     destruct (Only v ltac:(lra) Zv); [lra | easy].
 Qed.
 
-Lemma asked_step distinct three D q : known_but distinct three D -> good three q -> asked distinct three q = true ->
+Lemma tested_step distinct three D q : known_but distinct three D -> good three q -> tested distinct three q = true ->
   exists r, step_right double interior (considered r (part_root q) (root_answer distinct q)) /\
     forall t, part_start q < t < part_end q -> at_ y t = 0 -> t = r.
 Proof.
-  intros K (H & Lv & _) A. destruct (asked_root distinct three D q K H A) as (O & Once & r & R0 & Z & Only).
+  intros K (H & Lv & _) A. destruct (tested_root distinct three D q K H A) as (O & Once & r & R0 & Z & Only).
   pose proof (part_inside y q H) as In01. exists r. split; [| intros t T; now apply Only]. split; [lra |]. split.
   { intros found E. apply part_root_searched in E.
     apply (search_only double _ _ _ _ r _ E); auto; intros t T; now apply Only. }
@@ -156,10 +155,10 @@ Proof.
   intros R. destruct (unplaced s') eqn:U; auto. now apply run_unplaced in R.
 Qed.
 Theorem in_parts_right distinct three D steps : known_but distinct three D -> forall waiting s,
-  Forall (good three) waiting -> exists asked_for, run s asked_for (in_parts distinct three steps waiting s) /\
-  Forall (step_right double interior) asked_for /\
+  Forall (good three) waiting -> exists tests, run s tests (in_parts distinct three steps waiting s) /\
+  Forall (step_right double interior) tests /\
   (unplaced (in_parts distinct three steps waiting s) = false -> forall q t, In q waiting ->
-     part_start q < t < part_end q -> at_ y t = 0 -> covers asked_for t \/ D t).
+     part_start q < t < part_end q -> at_ y t = 0 -> covers tests t \/ D t).
 Proof.
   intros K. assert (Undecided : step_right double interior (considered 0 None undecided))
     by (split; [lra | split; [discriminate | split; discriminate]]).
@@ -173,8 +172,8 @@ Proof.
        split; [now constructor |]. split; [now constructor |]. intros U q' t [<- | I] T Z.
        - left. right. exists (part_start q). split; [now left | lra].
        - destruct (C U q' t I T Z); auto. left. now apply covers_more. }
-  destruct (asked distinct three q) eqn:A.
-  { destruct (asked_step distinct three D q K Gq A) as (r & Right & Only).
+  destruct (tested distinct three q) eqn:A.
+  { destruct (tested_step distinct three D q K Gq A) as (r & Right & Only).
     destruct (IH rest (consider s (part_root q) (root_answer distinct q)) Gr) as (l & Rn & F & C).
     exists (considered r (part_root q) (root_answer distinct q) :: l).
     split; [now constructor |]. split; [now constructor |]. intros U q' t [<- | I] T Z.
@@ -234,7 +233,7 @@ Proof.
   destruct more as [| more]; [lia |]. destruct waiting as [| q rest]; [easy |]. cbn [in_parts].
   inversion_clear F as [| ? ? Fq Fr]. assert (Wr : (work rest < work (q :: rest))%Z).
   { unfold work. cbn [fold_right]. unfold max_halvings in Fq. pose proof (Z.pow_pos_nonneg 3 (41 - level q)). lia. }
-  destruct (Rlt_dec _ _); [| apply IH; auto; lia]. destruct (asked distinct three q); [apply IH; auto; lia |].
+  destruct (Rlt_dec _ _); [| apply IH; auto; lia]. destruct (tested distinct three q); [apply IH; auto; lia |].
   destruct (Z.eqb_spec (level q) max_halvings); [apply IH; auto; lia |].
   destruct (next_work three q rest) as (Fn & Wn); auto; [lia |]. apply IH; auto; lia.
 Qed.

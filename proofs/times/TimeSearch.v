@@ -31,7 +31,7 @@ Context (sign_of_value : Z -> option sign)
 Variable newton : Z -> option Z.
 
 Definition farthest_step : Z := 2 ^ 60.
-Definition place_asked (a b x step : Z) : Z :=
+Definition next_place (a b x step : Z) : Z :=
   if ((x <=? a) || (b <=? x))%Z
   then if (step =? 1)%Z then Z.max (a + 1) (Z.min x (b - 1)) else (a + (b - a) / 2)%Z
   else x.
@@ -42,7 +42,7 @@ Fixpoint between (steps : nat) (a b x step : Z) (corrections : nat) : option bra
   | Datatypes.S steps =>
       if (b - a <=? 1)%Z then Some (double_of a, double_of b)
       else
-        let x := place_asked a b x step in
+        let x := next_place a b x step in
         match sign_of_value x with
         | None => None
         | Some zero => Some (double_of x, double_of x)
@@ -61,9 +61,9 @@ Fixpoint between (steps : nat) (a b x step : Z) (corrections : nat) : option bra
         end
   end.
 
-Lemma place_inside a b x step : (1 < b - a)%Z -> (a < place_asked a b x step < b)%Z.
+Lemma place_inside a b x step : (1 < b - a)%Z -> (a < next_place a b x step < b)%Z.
 Proof.
-  intros W. unfold place_asked.
+  intros W. unfold next_place.
   destruct (Z.leb_spec x a), (Z.leb_spec b x); cbn [orb]; try lia;
     (destruct (Z.eqb_spec step 1); [lia |]; pose proof (Z.div_mod (b - a) 2 ltac:(lia));
      pose proof (Z.mod_pos_bound (b - a) 2 ltac:(lia)); lia).
@@ -88,7 +88,7 @@ Proof.
   revert a b x step corrections. induction steps as [| steps IH]; intros a b x step corrections A O; [discriminate |].
   cbn [between]. destruct (Z.leb_spec (b - a) 1) as [W | W].
   { intros X. injection X as <-. replace b with (a + 1)%Z by lia. apply neighbours_left, next_to_each_other; lia. }
-  cbv zeta. pose proof (place_inside a b x step W) as I. set (m := place_asked a b x step) in *. clearbody m.
+  cbv zeta. pose proof (place_inside a b x step W) as I. set (m := next_place a b x step) in *. clearbody m.
   assert (M : double_of a < double_of m < double_of b) by (split; apply increasing; lia).
   assert (D : double (double_of m)) by (apply double_is; lia).
   destruct (sign_of_value m) as [s |] eqn:V; [| discriminate]. apply certain_sign in V.
@@ -108,7 +108,7 @@ Definition ends (steps : nat) (a b x step : Z) (corrections : nat) : Prop :=
   forall more, (steps <= more)%nat ->
     between more a b x step corrections = between steps a b x step corrections.
 Lemma step_ends steps a b x step corrections :
-  (forall a' b' x' step', let m := place_asked a b x step in (1 < b - a)%Z ->
+  (forall a' b' x' step', let m := next_place a b x step in (1 < b - a)%Z ->
      (a' = m /\ b' = b \/ a' = a /\ b' = m) ->
      (x' = m + step /\ a' = m \/ x' = m - step /\ b' = m)%Z /\ step' = Z.min (4 * step) farthest_step \/
      (corrections < 3)%nat /\ step' = step ->
@@ -116,7 +116,7 @@ Lemma step_ends steps a b x step corrections :
   ends (Datatypes.S steps) a b x step corrections.
 Proof.
   intros H more L. destruct more as [| more]; [lia |]. cbn [between].
-  destruct (Z.leb_spec (b - a) 1) as [| W]; auto. cbv zeta in H |- *. set (m := place_asked a b x step) in *.
+  destruct (Z.leb_spec (b - a) 1) as [| W]; auto. cbv zeta in H |- *. set (m := next_place a b x step) in *.
   destruct (sign_of_value m) as [s |]; auto.
   assert (Same : forall a' b' x' step', (a' = m /\ b' = b \/ a' = a /\ b' = m) ->
      (x' = m + step /\ a' = m \/ x' = m - step /\ b' = m)%Z /\ step' = Z.min (4 * step) farthest_step \/
@@ -160,7 +160,7 @@ Proof.
   change (Z.min (4 * farthest_step) farthest_step) with farthest_step.
   pose proof (place_inside a b x farthest_step W) as I. fold m in I.
   apply IH; [lia | | lia | lia]. enough (left_to_do (b' - a') < left_to_do (b - a))%Z by lia.
-  unfold m, place_asked in A, I. change (farthest_step =? 1)%Z with false in A, I.
+  unfold m, next_place in A, I. change (farthest_step =? 1)%Z with false in A, I.
   destruct ((x <=? a) || (b <=? x))%Z eqn:K.
   - pose proof (Z.div_mod (b - a) 2 ltac:(lia)). pose proof (Z.mod_pos_bound (b - a) 2 ltac:(lia)).
     apply halved; lia.

@@ -169,7 +169,7 @@ class Simulate(unittest.TestCase):
         self.assertEqual(ran.returncode, 1)
         self.assertIn("File name too long; expected a writable folder", ran.stderr)
 
-    def test_every_scenes_own_resolution_can_be_asked_for(self):
+    def test_every_scene_has_a_resolution_of_its_own(self):
         # Regression: the resolution of `stiff`, 3, was out of range.
         help = simulate("--help").stdout
         own = re.findall(r"^ +([a-z0-9-]+): .*?\(resolution\s+(\d+)", help, re.MULTILINE | re.DOTALL)

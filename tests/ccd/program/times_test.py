@@ -98,7 +98,7 @@ class StepTimes(StepTest):
     def test_no_contact(self):
         self.assertIsNone(self.step(self.frames[0], self.frames[0])[2]["first_contact"])
 
-    def test_json_has_times_only_if_asked_for(self):
+    def test_json_without_times(self):
         out = self.directory / "json"
         self.good("step", *self.frames, "--json", out)
         for field in ("touching_at_start", "first_contact", "advance"):

@@ -19,13 +19,13 @@ class Stop : public testing::TestWithParam<int> {
   protected:
     /// Cancels a call at its n-th poll; counts all polls.
     stop_query at(int n) {
-        asked_ = 0;
-        return [this, n] { return ++asked_ >= n; };
+        calls_ = 0;
+        return [this, n] { return ++calls_ >= n; };
     }
     template <class Call>
     void expect_stops(const Call& call) {
         EXPECT_NO_THROW(call(at(1 << 30)));
-        const int all = asked_;
+        const int all = calls_;
         EXPECT_GT(all, 0);
         for (const int n : {1, (all + 1) / 2}) EXPECT_THROW(call(at(n)), ccd::stopped) << n;
         EXPECT_NO_THROW(call(stop_query()));
@@ -34,7 +34,7 @@ class Stop : public testing::TestWithParam<int> {
     const ccd::mesh before_ = ccd::io::read_mesh(scene + "0.ply");
     const ccd::mesh after_ = ccd::io::read_mesh(scene + "1.ply");
     const ccd::vertex_rows rows_{before_, after_};
-    std::atomic<int> asked_ = 0;
+    std::atomic<int> calls_ = 0;
 };
 
 TEST_P(Stop, EndsBatches) {
