@@ -11,7 +11,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core.
 From Errbound Require Import Code CompoundCode.
-From Errbound Require Format Tight Sharp.
+From Errbound Require Format AbsoluteBound Tight Sharp.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -57,7 +57,7 @@ Proof.
   - now rewrite Rabs_pos_eq.
 Qed.
 Lemma is_zero_reals a sa : Code.is_zero R reals a sa = true -> a = 0 /\ sa = 0.
-Proof. apply Tight.is_zero_true. Qed.
+Proof. apply AbsoluteBound.is_zero_true. Qed.
 Lemma zero_is_zero : Code.is_zero R reals 0 0 = true.
 Proof. unfold Code.is_zero. cbn [equal reals integer]. now rewrite Req_bool_true. Qed.
 
@@ -333,9 +333,9 @@ Proof.
     assert (H : a * b = 0 /\ x * y = 0).
     { apply orb_prop in C0. destruct C0 as [C0 | C0]; apply is_zero_reals in C0; destruct C0 as [V S0].
       - split; [now rewrite V, Rmult_0_l |]. apply Zero. destruct K as [(_ & _ & K) | [(_ & _ & K) | (_ & _ & K & _)]]; auto.
-        left. rewrite S0 in K. apply Tight.within_0 in K. congruence.
+        left. rewrite S0 in K. apply Format.within_0 in K. congruence.
       - split; [now rewrite V, Rmult_0_r |]. apply Zero. destruct K as [(_ & _ & K) | [(_ & _ & K) | (_ & _ & _ & K)]]; auto.
-        right. rewrite S0 in K. apply Tight.within_0 in K. congruence. }
+        right. rewrite S0 in K. apply Format.within_0 in K. congruence. }
     destruct H as [H1 H2]. assert (EA : after = sum).
     { unfold after, product. rewrite H1, rnd_0, Rplus_0_r. now apply rnd_exact. }
     rewrite EA, H2, Rplus_0_r. split; [exact Ns |]. split; [exact Z |]. now split.
@@ -353,7 +353,7 @@ Proof.
     apply covers_less with (2 := C').
     replace (after - (X + x * y)) with
       ((after - (sum + product)) + ((product - a * b) + ((a * b - x * y) + (sum - X)))) by ring.
-    generalize (Tight.product_inherits a x sa b y sb HA HB)
+    generalize (AbsoluteBound.product_inherits a x sa b y sb HA HB)
       (Rabs_triang (after - (sum + product)) ((product - a * b) + ((a * b - x * y) + (sum - X))))
       (Rabs_triang (product - a * b) ((a * b - x * y) + (sum - X))) (Rabs_triang (a * b - x * y) (sum - X)). lra.
 Qed.

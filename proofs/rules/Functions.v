@@ -12,7 +12,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core Mult_error.
 From Errbound Require Import Format.
-From Errbound Require Tight.
+From Errbound Require AbsoluteBound Tight.
 Open Scope R_scope.
 
 (** The inherited error for arguments with an error of at most e; x is not negative, since a >= e. *)
@@ -89,21 +89,16 @@ Lemma f_1 : 1 <= f.
 Proof. unfold f. generalize (eps_positive p). lra. Qed.
 Lemma q_8 : 7 / 8 <= q <= 1.
 Proof. unfold q. generalize (error_r _ _ _ _ _ E). lra. Qed.
-(** Without one factor q. *)
-Lemma less_q x : 0 <= x -> 1 <= f * (x * q) -> 1 <= f * x.
-Proof.
-  intros P H. generalize f_1 q_8. intros F Q. assert (0 <= f * x) by (apply Rmult_le_pos; lra). nra.
-Qed.
 Lemma f_q5 : 1 <= f * (q * q * q * q * q).
-Proof. apply less_q; [| exact f_q6]. generalize q_8. intros. repeat apply Rmult_le_pos; lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q6]. Qed.
 Lemma f_q4 : 1 <= f * (q * q * q * q).
-Proof. apply less_q, f_q5. generalize q_8. intros. repeat apply Rmult_le_pos; lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q5]. Qed.
 Lemma f_q3 : 1 <= f * (q * q * q).
-Proof. apply less_q, f_q4. generalize q_8. intros. repeat apply Rmult_le_pos; lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q4]. Qed.
 Lemma f_q2 : 1 <= f * (q * q).
-Proof. apply less_q, f_q3. generalize q_8. intros. repeat apply Rmult_le_pos; lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q3]. Qed.
 Lemma f_q1 : 1 <= f * q.
-Proof. apply less_q, f_q2. generalize q_8. lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q2]. Qed.
 Lemma no_less x c : 0 <= x -> 1 <= c -> x <= x * c.
 Proof. intros X C. rewrite <- (Rmult_1_r x) at 1. apply Rmult_le_compat_l; lra. Qed.
 
@@ -207,7 +202,7 @@ Proof.
   assert (PR : 0 <= R) by apply rounding_nonnegative.
   assert (LR : (R + eta) * q <= R0) by apply rounding_of_lower.
   destruct (Req_bool_spec e 0) as [Z | Z].
-  { rewrite Z in L. apply Tight.within_0 in L. subst x. split; [lra |].
+  { rewrite Z in L. apply within_0 in L. subst x. split; [lra |].
     apply Rle_trans with (1 := HV). apply inflated_covers; [apply rounding_of_nonnegative | |].
     - apply Rle_trans with ((R + eta) * q * (f * q)); [| apply Rmult_le_compat_r; auto; lra].
       replace ((R + eta) * q * (f * q)) with ((R + eta) * (f * (q * q))) by ring. nra.
@@ -316,7 +311,7 @@ Proof.
     apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; auto.
     apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
     - apply (Tight.rounding_any p emin direction p_3 emin_p r h E).
-    - now apply Tight.product_inherits. }
+    - now apply AbsoluteBound.product_inherits. }
   assert (Ht : T * q <= sa * t).
   { unfold T. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto. apply sum_relative; auto. now apply number_abs. }
   assert (HR0 : (R + eta) * q <= R0) by apply rounding_of_lower.
