@@ -7,14 +7,11 @@
 // throws only std::bad_alloc. ccd/bodies/motion.hpp has the same calls for points of rigid bodies.
 #pragma once
 
-#include <algorithm>
 #include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
