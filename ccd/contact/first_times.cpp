@@ -192,8 +192,11 @@ std::pair<double, double> time_between(double from, double to, double t) {
     if (t == 0) return {from, from};
     if (t == 1) return {to, to};
     using number = errbound::tracked<double, errbound::interval>;
-    const number x = number(from) + number(t) * (number(to) - number(from));
-    return {std::max(from, x.bound().lower), std::min(to, x.bound().upper)};
+    // If the difference overflows, both knots are large, and their halves exact.
+    const double unit = std::isfinite(to - from) ? 1 : 2;
+    const number low(from / unit), high(to / unit);
+    const auto [lower, upper] = (number(unit) * (low + number(t) * (high - low))).bound();
+    return {std::max(from, lower), std::min(to, upper)};
 }
 
 }  // namespace ccd::detail
