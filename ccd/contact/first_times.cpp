@@ -7,10 +7,12 @@
 #include <ccd/bodies/motion.hpp>
 #include <cmath>
 #include <cstddef>
+#include <errbound/tracked.hpp>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ccd/contact/condition.hpp"
@@ -185,6 +187,17 @@ template first_time first_within(const edge_edge_of<rational_curve>&, separation
 template first_time first_within(const vertex_edge_of<rational_curve>&, separation, double, answer);
 template first_time first_within(const vertex_vertex_of<rational_curve>&, separation, double,
                                  answer);
+
+std::pair<double, double> time_between(double from, double to, double t) {
+    if (t == 0) return {from, from};
+    if (t == 1) return {to, to};
+    using number = errbound::tracked<double, errbound::interval>;
+    // If the difference overflows, both knots are large, and their halves exact.
+    const double unit = std::isfinite(to - from) ? 1 : 2;
+    const number low(from / unit), high(to / unit);
+    const auto [lower, upper] = (number(unit) * (low + number(t) * (high - low))).bound();
+    return {std::max(from, lower), std::min(to, upper)};
+}
 
 }  // namespace ccd::detail
 

@@ -61,12 +61,15 @@ class scene_reader {
             fail("bodies", bodies, "a list of at least one body");
         for (const json& body : bodies) add_names(body);
         read_times(document, bodies);
-        scene_.steps.resize(scene_.times.size() - 1);
+        scene_.steps.resize(std::max<std::size_t>(scene_.times.size(), 1) - 1);
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             add_mesh(b, bodies[b]);
             add_motions(b, bodies[b]);
         }
         if (document.contains("skip")) read_skipped(document["skip"]);
+        if (scene_.times.size() < 2)
+            fail("number of frames is " + std::to_string(scene_.times.size()) +
+                 "; expected at least 2, by 'times' or by a body's 'poses' or 'matrices'");
         return std::move(scene_);
     }
 
@@ -132,19 +135,21 @@ class scene_reader {
     /// Without times, the bodies' poses determine the number of frames, which are 1 apart.
     void read_times(const json& document, const json& bodies) {
         std::size_t frames = 0;
-        for (const json& body : bodies)
+        for (std::size_t b = 0; b < bodies.size(); ++b)
             for (const char* name : {"poses", "matrices"})
-                if (body.contains(name)) {
-                    if (!body[name].is_array()) fail(name, body[name], "a list");
-                    frames = std::max(frames, body[name].size());
+                if (bodies[b].contains(name)) {
+                    const json& list = bodies[b][name];
+                    if (!list.is_array()) fail(name + (" of " + said(b)), list, "a list");
+                    frames = std::max(frames, list.size());
                 }
         if (!document.contains("times")) {
             for (std::size_t i = 0; i < frames; ++i) scene_.times.push_back(static_cast<double>(i));
         } else {
             const json& times = document["times"];
-            if (!times.is_array()) fail("times", times, "a list of numbers");
+            if (!times.is_array() || times.size() < 2)
+                fail("times", times, "a list of at least 2 numbers");
             for (const json& time : times) {
-                if (!time.is_number()) fail("times", times, "a list of numbers");
+                if (!time.is_number()) fail("times", times, "a list of at least 2 numbers");
                 const auto t = time.get<double>();
                 if (!scene_.times.empty() && !(scene_.times.back() < t))
                     fail("time " + std::to_string(scene_.times.size()), time,
@@ -152,9 +157,6 @@ class scene_reader {
                 scene_.times.push_back(t);
             }
         }
-        if (scene_.times.size() < 2)
-            fail("number of frames is " + std::to_string(scene_.times.size()) +
-                 "; expected at least 2");
     }
 
     void add_mesh(std::size_t b, const json& body) {

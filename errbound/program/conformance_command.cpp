@@ -47,7 +47,7 @@ conformance_command::conformance_command(CLI::App& program)
               "coordinates, sign),\nITF1788's .itl, CORE-MATH's .wc, MPSolve's .pol with .res, and "
               ".fpcore, in all subfolders.\nExit status: 0 if no answer was wrong, 1 bad input or "
               "wrong answers, 2 bad usage") {
-    support::add(line_, "folder", folder_, "Folder of published files").required().type("DIR");
+    support::add(line_, "FOLDER", folder_, "Folder of published files").required().type("DIR");
     support::add(line_, "--rules", rules_, "Bound rules R[,R...]; all by default").type("R[,R...]");
     support::add(line_, "--seconds", found_.options.seconds, "Limit of each bound of a program")
         .between(0.0, 1e9)

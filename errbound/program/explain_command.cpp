@@ -36,7 +36,7 @@ explain::explain(CLI::App& program)
     : command(program, "explain",
               "Show where the errors of results come from, as errbound::write_explanations of a "
               "program\nthat computes with explained numbers wrote it") {
-    support::add(line_, "file", file_, "The explanations; - is standard input")
+    support::add(line_, "FILE", file_, "The explanations; - is standard input")
         .required()
         .type("FILE")
         .input();

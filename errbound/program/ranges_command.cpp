@@ -63,7 +63,7 @@ ranges::ranges(CLI::App& program)
           "Bound the rounding error of FPCore programs over all inputs that their preconditions "
           "allow,\nand search for inputs with a large error. Cores that cannot be bounded are "
           "listed with the reason") {
-    support::add(line_, "files", files_, "FPCore files; - is standard input")
+    support::add(line_, "FILE", files_, "FPCore files; - is standard input")
         .required()
         .type("FILE...");
     support::add(line_, "--only", only_, "Only the cores of that name").type("NAME");

@@ -35,7 +35,7 @@ class option {
     option& among(const std::vector<std::string>& names);
     template <class T>
     option& between(T least, T most);  ///< int, std::uint64_t, double: not NaN
-    /// `fault` returns a message, or nothing for a good value.
+    /// `fault` returns "is VALUE; expected ...", another message, or nothing for a good value.
     option& check(std::function<std::string(const std::string&)> fault);
     /// A name with this ending; with `or_output` also -.
     option& ends_in(const std::string& ending, bool or_output = false);

@@ -25,7 +25,7 @@ std::string checked_seed(const std::string& text) {
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
     if (error == std::errc() && end == text.data() + text.size()) return {};
-    return "seed is '" + text + "'; expected an integer from 0 to 2^64 - 1";
+    return "is '" + text + "'; expected an integer from 0 to 2^64 - 1";
 }
 
 std::ostream& stream_for_people(const std::vector<std::optional<std::filesystem::path>>& outputs) {

@@ -58,8 +58,8 @@ std::string input_named(const std::string& name);  ///< "-" is standard input
 void require_one_standard_input(const std::string& option,
                                 const std::vector<std::filesystem::path>& inputs);
 
-/// Returns an error message for CLI11 unless the text is an unsigned integer of 64 bits. (CLI11
-/// itself would convert other numbers.)
+/// Returns "is TEXT; expected ..." for CLI11 unless the text is an unsigned integer of 64 bits.
+/// (CLI11 itself would convert other numbers.)
 std::string checked_seed(const std::string& text);
 
 /// The stream for tables: standard error if an output is standard output.

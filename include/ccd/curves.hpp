@@ -7,14 +7,11 @@
 // throws only std::bad_alloc. ccd/bodies/motion.hpp has the same calls for points of rigid bodies.
 #pragma once
 
-#include <algorithm>
 #include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -142,23 +139,16 @@ struct spline_time {
     ccd::outcome outcome = ccd::outcome::uncertain;
     std::size_t piece = 0;  ///< the first piece with a first time, or that is uncertain
     first_time in_piece;    ///< exact, in that piece's t
-    /// Bounds of the first time, some units in the last place of the larger knot apart; at a knot
-    /// both are the knot.
+    /// Bounds of the first time, some units in the last place of the larger knot apart. They are
+    /// equal at a knot, and if in_piece is one double and no operation rounds.
     double low = 0, high = 0;
 };
 
 namespace detail {
 
-/// Bounds of from + t(to − from).
-inline std::pair<double, double> time_between(double from, double to, double t) {
-    if (t == 0) return {from, from};
-    if (t == 1) return {to, to};
-    const double x = (1 - t) * from + t * to;
-    const double error =
-        4 * std::numeric_limits<double>::epsilon() * (std::max)(std::abs(from), std::abs(to)) +
-        4 * std::numeric_limits<double>::denorm_min();
-    return {(std::max)(from, x - error), (std::min)(to, x + error)};
-}
+/// Bounds of from + t(to − from), which are equal if no operation rounds. Precondition: from <= to,
+/// 0 <= t <= 1.
+std::pair<double, double> time_between(double from, double to, double t);
 
 }  // namespace detail
 

@@ -174,7 +174,9 @@ void add_options(CLI::App& app, command_line& given) {
            "Skip the first N questions of the seed's sequence. Runs with --first 0, M, 2M, ...\n"
            "and M questions each partition one long run")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40));
-    app.add_option("--threads", given.options.threads, "0: one per core")->capture_default_str();
+    app.add_option("--threads", given.options.threads, "0: one per core")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096));
     app.add_option("--folder", given.options.folder, "For what differs; by default out/soak/PART");
     app.footer(
         "Exit status: 0 no difference, 1 a difference or bad input, 2 bad usage, 3 stopped "

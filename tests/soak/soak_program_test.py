@@ -34,6 +34,15 @@ class Soak(ProgramTest):
     def run_whole(self, *options):
         return self.counts(self.good(*options))
 
+    def test_bad_usage(self):
+        for message, *arguments in (
+                ("--threads is many; expected 0 to 4096", "--threads", "many"),
+                ("--queries is given with --meshes; expected only one", "--queries", 5, "--meshes", 5),
+                ("value of --meshes is missing; expected UINT in ", "--meshes"),
+                ("several of --symmetries,--meshes,", "--symmetries", "--meshes", 5),
+                ("option is '--mesh'; expected one that ./run soak --help lists", "--mesh", 5)):
+            self.refused(2, message, *arguments)
+
     def test_ranges_together_make_the_whole_run(self):
         for part, ranges in ((), (0, 4000, 8000)), (("--symmetries",), (0, 200000, 300000, 600000)):
             with self.subTest(part=part):

@@ -121,10 +121,10 @@ std::string arrays_of(const step_view& step, const body_arrays& bodies) {
     return text;
 }
 
-std::string page_of_arrays(std::string_view arrays) {
+std::string page_of_arrays(std::string_view arrays, std::string_view subject) {
     const std::pair<std::string_view, std::string_view> parts[] = {
-        {"{{arrays}}", arrays},      {"{{camera}}", page_camera}, {"{{picture}}", page_picture},
-        {"{{bodies}}", page_bodies}, {"{{script}}", page_script},
+        {"{{subject}}", subject},      {"{{arrays}}", arrays},      {"{{camera}}", page_camera},
+        {"{{picture}}", page_picture}, {"{{bodies}}", page_bodies}, {"{{script}}", page_script},
     };
     std::string text;
     std::string_view rest = page_template;
@@ -188,12 +188,12 @@ std::string page_of(const body_steps& steps, std::span<const body_motion> motion
                          .times = found.times,
                          .intersections = crossing};
     detail::require_view(step);
-    return page_of_arrays(arrays_of(step, bodies));
+    return page_of_arrays(arrays_of(step, bodies), "bodies");
 }
 
 std::string page_of(const step_view& step) {
     detail::require_view(step);
-    return page_of_arrays(arrays_of(step, {}));
+    return page_of_arrays(arrays_of(step, {}), "a mesh");
 }
 
 }  // namespace ccd::io

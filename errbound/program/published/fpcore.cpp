@@ -5,6 +5,7 @@
 #include <errbound/support/error.hpp>
 #include <map>
 
+#include "errbound/support/command_line.hpp"
 #include "errbound/validation/worst_case/largest_error.hpp"
 #include "errbound/validation/worst_case/range.hpp"
 
@@ -54,8 +55,12 @@ class parser {
         return e;
     }
     [[noreturn]] void fail(const std::string& what, const std::string& expected) const {
-        throw support::file_error(file_ + ':' + std::to_string(line_) + ": " + what +
-                                  "; expected " + expected);
+        fail_at(line_, what, expected);
+    }
+    [[noreturn]] void fail_at(std::uint_least32_t line, const std::string& what,
+                              const std::string& expected) const {
+        throw support::file_error(file_ + ':' + std::to_string(line) + ": " + what + "; expected " +
+                                  expected);
     }
 
   private:
@@ -88,6 +93,18 @@ const std::string& operator_of(const fpcore_expression& e) {
     static const std::string none;
     return e.items.empty() ? none : e.items[0].atom;
 }
+/// For messages; the end of a long list is left out.
+std::string text_of(const fpcore_expression& e) {
+    if (!e.atom.empty()) return e.atom;
+    constexpr std::size_t most = 60;
+    std::string text = "(";
+    for (const fpcore_expression& item : e.items) {
+        if (text.size() > 1) text += ' ';
+        text += text.size() < most ? text_of(item) : "...";
+        if (text.size() > most) break;
+    }
+    return text + ')';
+}
 bool is_comparison(const std::string& op) {
     return op == "<" || op == ">" || op == "<=" || op == ">=";
 }
@@ -109,7 +126,9 @@ class evaluator {
         if ((op == "let" || op == "let*") && count == 2) {
             names inner = in;
             for (const fpcore_expression& b : e.items[1].items) {
-                if (b.items.size() != 2) throw unsupported_core("a binding has no value");
+                if (b.items.size() != 2 || b.items[0].atom.empty())
+                    throw unsupported_core("the binding " + text_of(b) +
+                                           " has no name and value; expected (NAME VALUE)");
                 inner.insert_or_assign(b.items[0].atom,
                                        value(b.items[1], op == "let" ? in : inner));
             }
@@ -122,6 +141,9 @@ class evaluator {
         }
         if (op.starts_with("while") || op.starts_with("for"))
             throw unsupported_core("the program has a loop");
+        if (op.empty())
+            throw unsupported_core("the expression " + text_of(e) +
+                                   " has no operation; expected (OPERATION ARGUMENT...)");
         std::vector<recorded> x;
         for (std::size_t i = 1; i <= count; ++i) x.push_back(value(e.items[i], in));
         const errbound::scope here(core_.name, core_.file, e.line);
@@ -144,7 +166,12 @@ class evaluator {
     /// The name of an argument, which may have properties.
     std::string name_of_argument(const fpcore_expression& e) const {
         if (!e.atom.empty()) return e.atom;
-        if (operator_of(e) != "!") throw unsupported_core("an argument is an array");
+        const bool has_properties = operator_of(e) == "!";
+        if (e.items.empty() ||
+            (has_properties && (e.items.size() == 1 || e.items.back().atom.empty())))
+            throw unsupported_core("the argument " + text_of(e) +
+                                   " has no name; expected NAME or (! PROPERTY... NAME)");
+        if (!has_properties) throw unsupported_core("an argument is an array");
         require_supported(e);
         return e.items.back().atom;
     }
@@ -210,7 +237,8 @@ class evaluator {
             return op == "and";
         }
         if (!is_comparison(op) && op != "==" && op != "!=")
-            throw unsupported_core("the condition " + op + " is not supported");
+            throw unsupported_core("the condition " + (op.empty() ? text_of(e) : op) +
+                                   " is not supported; expected a comparison, and, or, not");
         std::vector<recorded> x;
         for (std::size_t i = 1; i < e.items.size(); ++i) x.push_back(value(e.items[i], in));
         bool all = true;
@@ -258,11 +286,12 @@ std::vector<fpcore> parse_fpcores(std::string_view text, const std::string& file
     parser p(text, file);
     while (!p.at_end()) {
         fpcore_expression e = p.expression();
-        if (operator_of(e) != "FPCore" || e.items.size() < 3)
-            p.fail("a list is no core", "(FPCore");
+        std::size_t i = e.items.size() > 1 && !e.items[1].atom.empty() ? 2 : 1;  // after a name
+        if (operator_of(e) != "FPCore" || e.items.size() < i + 2 || !e.items[i].atom.empty())
+            p.fail_at(e.line, "expression is '" + text_of(e) + "'",
+                      "a core, (FPCore (ARGUMENT...) BODY)");
         fpcore core;
         core.file = file;
-        std::size_t i = e.items[1].atom.empty() ? 1 : 2;
         core.name = file + ':' + std::to_string(e.line);
         core.arguments = e.items[i].items;
         for (++i; i + 1 < e.items.size(); i += 2) {
@@ -271,8 +300,8 @@ std::vector<fpcore> parse_fpcores(std::string_view text, const std::string& file
             if (!property.starts_with(':')) break;
             if (property == ":name" && value.atom.size() >= 2)
                 core.name = value.atom.substr(1, value.atom.size() - 2);
-            if (property == ":precision") core.precision = value.atom;
-            if (property == ":round") core.rounding = value.atom;
+            if (property == ":precision") core.precision = text_of(value);
+            if (property == ":round") core.rounding = text_of(value);
             if (property == ":pre") core.precondition = value;
         }
         // Some cores have :alt without a value: the loop then takes the body for it.
@@ -287,7 +316,8 @@ worst_case_result worst_case_of(const fpcore& core, const worst_case_options& op
     const std::string& name = precision.empty() ? core.precision : precision;
     const auto type = precisions.find(name);
     if (type == precisions.end())
-        throw unsupported_core("the precision " + name + " is not supported");
+        throw unsupported_core("the precision " + name + " is not supported; expected one of " +
+                               support::listed(precisions, [](const auto& p) { return p.first; }));
     const evaluator e(core, core.precision);
     evaluator::require_nearest(core.rounding);
     std::map<std::string, std::size_t> inputs;

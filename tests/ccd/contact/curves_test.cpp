@@ -2,17 +2,22 @@
 // oracle.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
 #include <cmath>
 #include <cstddef>
+#include <random>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "tests/ccd/contact/random_motion.hpp"
 #include "tests/support/first_time_faults.hpp"
 #include "tests/support/oracle_rational.hpp"
+#include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
 
 namespace {
 
@@ -89,15 +94,37 @@ TEST(curves, in_pieces_meet_at_the_first_of_them) {
     EXPECT_EQ(found.outcome, outcome::collides);
     EXPECT_EQ(found.piece, 1u);
     EXPECT_EQ(found.in_piece, at(0.5));
-    EXPECT_LE(found.low, 2.5);
-    EXPECT_GE(found.high, 2.5);
-    EXPECT_LT(found.high - found.low, 1e-14);
+    EXPECT_EQ(found.low, 2.5);
+    EXPECT_EQ(found.high, 2.5);
     EXPECT_EQ(ccd::first_time_of_pieces(std::array{pieces[0]}).outcome, outcome::separate);
     EXPECT_EQ(ccd::first_time_of_pieces(pieces, {0.5}).in_piece, at(0.25));
     EXPECT_EQ(ccd::first_time_of_pieces(pieces, {-1}).outcome, outcome::uncertain);
     const auto start = ccd::first_time_of_pieces(std::array{piece{3, 5, moving(f0)}});
     EXPECT_EQ(start.low, 3);
     EXPECT_EQ(start.high, 3);
+}
+
+TEST(random_curves, in_pieces_have_bounds_of_the_exact_time) {
+    std::mt19937_64 random(7);
+    int exact = 0;
+    for (int i = support::scaled(20000); i > 0; --i) {
+        double from = special_value<double>(random), to = special_value<double>(random);
+        if (i % 4 == 0) to = std::nextafter(from, HUGE_VAL);
+        if (from > to) std::swap(from, to);
+        double t = i % 3 == 0 ? static_cast<double>(random() % 9) / 8
+                              : std::ldexp(static_cast<double>(random() >> 11), -53);
+        if (i % 5 == 0) t = std::ldexp(t, -static_cast<int>(random() % 1000));
+        const auto [low, high] = ccd::detail::time_between(from, to, t);
+        const rational time = exactly(from) + exactly(t) * (exactly(to) - exactly(from));
+        EXPECT_LE(exactly(low), time);
+        EXPECT_GE(exactly(high), time);
+        EXPECT_TRUE(from <= low && high <= to);
+        exact += low == high;
+        const double larger = std::max(std::abs(from), std::abs(to));
+        const double ulp = std::nextafter(larger, HUGE_VAL) - larger;
+        EXPECT_LE(high - low, 8 * ulp) << from << ' ' << to << ' ' << t;
+    }
+    EXPECT_GT(exact, 100);
 }
 
 // ---- Curves with weights ----

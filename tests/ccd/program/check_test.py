@@ -81,7 +81,7 @@ class Check(ProgramTest):
                        self.write("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
         out = self.directory / "out"
         for arguments, message in [
-                ([], "FILE is required"),
+                ([], "FILE is missing"),
                 ([good, good, "--pairs", out], "expected one FILE"),
                 ([good, "--view", "page.vtp"], "expected a name that ends in .html"),
                 ([good, "--pairs", out, "--json", out], "expected a separate file"),

@@ -55,13 +55,13 @@ class Ranges(ProgramTest):
                                done["constants"]["at_most"])
         self.assertIn("constant", {o["operation"] for o in done["constants"]["operations"]})
         reasons = {entry["core"]: entry["reason"] for entry in found["not_done"]}
+        self.assertIn("the precision posit16 is not supported; expected one of bfloat16, ", reasons.pop("format"))
         self.assertEqual(reasons, {
             "undecided": "a branch depends on the input", "loop": "the program has a loop",
             "unbounded": "the precondition gives no finite range of x",
             "operation": "the operation gamma is not supported",
             "domain": "there is no finite bound: an operation may overflow or leave its domain",
-            "mixed": "the program has several precisions",
-            "format": "the precision posit16 is not supported"})
+            "mixed": "the program has several precisions"})
         self.assertEqual([float(row["at_most"]) for row in rows_of(table)],
                          [entry["at_most"] for entry in done.values()])
         self.assertTrue(picture.read_text().startswith("<svg"))
@@ -113,6 +113,11 @@ class Ranges(ProgramTest):
 (FPCore ((! :precision binary64 x)) :name "wide" :precision binary16 :pre (<= 1 x 2) x)
 (FPCore ((x 2)) :name "array" :pre (<= 1 x 2) x)
 (FPCore (x) :name "nothing" :pre (and (<= 1 x 2) (< (* x x) 0)) (+ x 1))
+(FPCore (x) :name "empty" :pre (<= 1 x 2) (+ x ()))
+(FPCore (x) :name "unbound" :pre (<= 1 x 2) (let ((y)) y))
+(FPCore (()) :name "unnamed" 1)
+(FPCore (x) :name "branch" :pre (<= 1 x 2) (if () x 1))
+(FPCore (x) :name "precise" :pre (<= 1 x 2) :precision () x)
 """)
         self.good(self.cores, "--json", out)
         found = json.loads(out.read_text())
@@ -123,16 +128,26 @@ class Ranges(ProgramTest):
         self.assertGreaterEqual(done["hidden"]["upper"], 1024)
         self.assertEqual(done["different"]["at_most"], 0)
         reasons = {entry["core"]: entry["reason"] for entry in found["not_done"]}
+        precise = reasons.pop("precise")
         self.assertEqual(reasons, {
             "twice": "two arguments have the name x", "down": "rounding is toZero, not to nearest",
             "up": "rounding is toPositive, not to nearest",
             "wide": "the program has several precisions", "array": "an argument is an array",
-            "nothing": "no number of the format satisfies the precondition"})
+            "nothing": "no number of the format satisfies the precondition",
+            "empty": "the expression () has no operation; expected (OPERATION ARGUMENT...)",
+            "unbound": "the binding (y) has no name and value; expected (NAME VALUE)",
+            "unnamed": "the argument () has no name; expected NAME or (! PROPERTY... NAME)",
+            "branch": "the condition () is not supported; expected a comparison, and, or, not"})
+        self.assertIn("the precision () is not supported; expected one of bfloat16, ", precise)
 
     def test_bad_input(self):
         for text, message in [("(FPCore (x) (+ x 1)", "1: the file ends; expected a closing parenthesis"),
                               ("\n(FPCore (x) (+ x 1]", "2: a bracket is unmatched"),
-                              ("(define x)", "1: a list is no core; expected (FPCore"),
+                              ("(define x)", "1: expression is '(define x)'; expected a core, (FPCore (ARGUMENT...) BODY)"),
+                              ("()", "1: expression is '()'; expected a core"), ("[]", "1: expression is '()'"),
+                              ("\n(FPCore (x)\n)", "2: expression is '(FPCore (x))'; expected a core"),
+                              ("(FPCore f (x))", "1: expression is '(FPCore f (x))'"), ("x", "1: expression is 'x'"),
+                              ("(FPCore x x)", "1: expression is '(FPCore x x)'"),
                               ('(FPCore (x) :name "a', "1: a text does not end")]:
             self.cores.write_text(text)
             self.refused(1, f"{self.cores}:{message}", self.cores)
