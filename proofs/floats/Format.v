@@ -397,12 +397,25 @@ Proof. intros X P H. apply rnd_above; auto. nra. Qed.
 
 End Lower.
 
-(** A rounding leaves at least the share q of a normal number. If s is at least k x, and the factor g covers k and one
-    more rounding, s g as computed is at least x. *)
+(** A rounding leaves at least the share q of a normal number, and all but h of a smaller one. *)
 Section Share.
 
-Context (q : R) (q_1 : 0 < q <= 1) (normal : forall x, smallest_normal <= x -> x * q <= rnd x).
+Context (q h : R) (q_1 : 0 < q <= 1) (h_0 : 0 <= h) (normal : forall x, smallest_normal <= x -> x * q <= rnd x)
+  (small : forall x, 0 <= x -> x < smallest_normal -> x - h <= rnd x).
 
+Lemma any_left x : 0 <= x -> x * q - h <= rnd x.
+Proof.
+  intros P. destruct (Rlt_or_le x smallest_normal) as [C | C].
+  - generalize (small x P C). nra.
+  - generalize (normal x C). lra.
+Qed.
+Lemma sum_left x y : number x -> number y -> 0 <= x + y -> (x + y) * q <= rnd (x + y).
+Proof.
+  intros X Y P. destruct (Rlt_or_le (x + y) smallest_normal) as [C | C]; [| now apply normal].
+  rewrite sum_exact_below by (auto; rewrite Rabs_pos_eq; lra). nra.
+Qed.
+
+(** If s is at least k x, and the factor g covers k and one more rounding, s g as computed is at least x. *)
 Lemma scaled_left s g : smallest_normal <= s -> 1 <= g -> s * (g * q) <= rnd (s * g).
 Proof. intros M G. rewrite <- Rmult_assoc. apply normal. generalize smallest_normal_positive. nra. Qed.
 Lemma scaled_covers x s k g : number s -> 0 <= x -> 0 <= s -> 1 <= g -> 1 <= g * (k * q) -> x * k <= s ->
@@ -413,6 +426,34 @@ Proof.
   - apply Rle_trans with (2 := scaled_left s g C G). apply Rle_trans with (x * k * (g * q)).
     + replace (x * k * (g * q)) with (x * (g * (k * q))) by ring. nra.
     + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
+Qed.
+
+(** The error that a product inherits from its factors' bounds, as the rules compute it. *)
+Lemma product_left a sa b sb : number b -> number sb -> 0 <= a -> 0 <= b -> 0 <= sa -> 0 <= sb ->
+  let inherited := rnd (rnd (a * sb) + rnd (sa * rnd (b + sb))) in
+  let exactly := a * sb + sa * (b + sb) in
+  0 <= exactly /\ 0 <= inherited /\ (exactly * (q * q) - 2 * h) * q <= inherited /\
+  (inherited < smallest_normal -> exists w, sa * (b + sb) * q <= w <= inherited + h /\ a * sb + w <= inherited + 2 * h).
+Proof.
+  intros B SB PA PB PSa PSb. cbv zeta. set (w := sa * rnd (b + sb)). set (K := a * sb). set (T := sa * (b + sb)).
+  set (P1 := rnd K). set (P2 := rnd w). set (I := rnd (P1 + P2)).
+  assert (PK : 0 <= K) by now apply Rmult_le_pos. assert (PT : 0 <= T) by (apply Rmult_le_pos; lra).
+  assert (Pw : 0 <= w) by (apply Rmult_le_pos; auto; apply rnd_nonnegative; lra).
+  assert (Pos1 : 0 <= P1) by now apply rnd_nonnegative. assert (Pos2 : 0 <= P2) by now apply rnd_nonnegative.
+  assert (N1 : number P1) by apply rnd_number. assert (N2 : number P2) by apply rnd_number.
+  assert (Hw : T * q <= w).
+  { unfold T, w. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto. apply sum_left; auto. lra. }
+  split; [lra |]. split; [apply rnd_nonnegative; lra |]. split.
+  - generalize (any_left K PK) (any_left w Pw) (sum_left P1 P2 N1 N2 ltac:(lra)). fold P1 P2 I. intros D1 D2 D3.
+    apply Rle_trans with (2 := D3). apply Rmult_le_compat_r; [lra |].
+    assert (K * (q * q) <= K * q) by (apply Rmult_le_compat_l; nra).
+    assert (T * (q * q) <= w * q) by (rewrite <- Rmult_assoc; apply Rmult_le_compat_r; lra). lra.
+  - intros C. assert (L1 : P1 <= I) by (apply rnd_above; auto; lra).
+    assert (L2 : P2 <= I) by (apply rnd_above; auto; lra).
+    assert (EI : I = P1 + P2) by (apply (sum_subnormal P1 P2); auto; fold I; lra).
+    assert (D1 : K - h <= P1) by (apply small; auto; apply rnd_subnormal; fold P1; lra).
+    assert (D2 : w - h <= P2) by (apply small; auto; apply rnd_subnormal; fold P2; lra).
+    exists w. lra.
 Qed.
 
 End Share.

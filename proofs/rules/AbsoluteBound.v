@@ -136,20 +136,11 @@ Proof.
   intros C. generalize (smallest_normal_positive p emin) (share_left B x). intros P.
   rewrite (Rabs_pos_eq x), (Rabs_pos_eq (fl x)) by (try apply rnd_nonnegative; lra). auto.
 Qed.
-Lemma small_left x : 0 <= x -> fl x < smallest_normal -> x - h <= fl x.
-Proof. intros P C. apply (rnd_absolute p emin direction r h E); auto. now apply (rnd_subnormal p emin direction). Qed.
-Lemma any_left x : 0 <= x -> x * q - h <= fl x.
-Proof.
-  intros P. destruct (Rlt_or_le x smallest_normal) as [C | C].
-  - generalize (proj1 (rnd_absolute p emin direction r h E x P C)). nra.
-  - generalize (normal_left x C). lra.
-Qed.
-Lemma sum_left x y : number x -> number y -> 0 <= x + y -> (x + y) * q <= fl (x + y).
-Proof.
-  intros X Y P. destruct (Rlt_or_le (x + y) smallest_normal) as [C | C]; [| now apply normal_left].
-  rewrite sum_exact_below by (auto; rewrite Rabs_pos_eq; lra). nra.
-Qed.
-
+Lemma small_left x : 0 <= x -> x < smallest_normal -> x - h <= fl x.
+Proof. intros P C. now apply (rnd_absolute p emin direction r h E). Qed.
+Let any_left := Format.any_left p emin direction q h q_1 (proj1 h_eta) normal_left small_left.
+Let product_left := Format.product_left p emin direction q h q_1 (proj1 h_eta) normal_left small_left.
+Definition sum_left := Format.sum_left p emin direction q q_1 normal_left.
 Let scaled_left := Format.scaled_left p emin direction q normal_left.
 Let scaled_covers := Format.scaled_covers p emin direction q q_1 normal_left.
 
@@ -221,34 +212,16 @@ Proof.
     repeat split; auto. assert (underflow * (q * q) <= underflow * q) by (apply Rmult_le_compat_l; nra). lra.
 Qed.
 
-(** Multiplication: the inherited error as computed. *)
-Lemma product_inherited a sa b sb : number b -> number sb -> 0 <= a -> 0 <= b -> 0 <= sa -> 0 <= sb ->
+(** Multiplication: below the smallest normal number, the inherited error loses `underflow` less h. *)
+Lemma product_small a sa b sb : number b -> number sb -> 0 <= a -> 0 <= b -> 0 <= sa -> 0 <= sb ->
   let inherited := fl (fl (a * sb) + fl (sa * fl (b + sb))) in
-  let exactly := a * sb + sa * (b + sb) in
-  0 <= exactly /\ 0 <= inherited /\ (exactly * (q * q) - 2 * h) * q <= inherited /\
-  (inherited + 2 * eta < smallest_normal -> exactly <= inherited + underflow - h).
+  inherited + 2 * eta < smallest_normal -> a * sb + sa * (b + sb) <= inherited + underflow - h.
 Proof.
-  intros ND NSb PA PD PSa PSb. cbv zeta. set (t := fl (b + sb)). set (K := a * sb). set (T := sa * (b + sb)).
-  set (P1 := fl K). set (P2 := fl (sa * t)). set (I := fl (P1 + P2)).
-  assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra). assert (Pst : 0 <= sa * t) by now apply Rmult_le_pos.
-  assert (PK : 0 <= K) by now apply Rmult_le_pos. assert (PT : 0 <= T) by (apply Rmult_le_pos; lra).
-  assert (Pos1 : 0 <= P1) by now apply rnd_nonnegative. assert (Pos2 : 0 <= P2) by now apply rnd_nonnegative.
-  assert (N1 : number P1) by apply rnd_number. assert (N2 : number P2) by apply rnd_number.
-  assert (Ht : T * q <= sa * t).
-  { unfold T. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto. apply sum_left; auto. lra. }
-  split; [lra |]. split; [apply rnd_nonnegative; lra |]. split.
-  - generalize (any_left K PK) (any_left (sa * t) Pst) (sum_left P1 P2 N1 N2 ltac:(lra)). fold P1 P2 I. intros D1 D2 D3.
-    apply Rle_trans with (2 := D3). apply Rmult_le_compat_r; [lra |].
-    assert (K * (q * q) <= K * q) by (apply Rmult_le_compat_l; nra).
-    assert (T * (q * q) <= sa * t * q) by (rewrite <- Rmult_assoc; apply Rmult_le_compat_r; lra). lra.
-  - intros C. generalize (eta_positive emin). intros PE.
-    assert (L1 : P1 <= I) by (apply rnd_above; auto; lra). assert (L2 : P2 <= I) by (apply rnd_above; auto; lra).
-    assert (EI : I = P1 + P2) by (apply (sum_subnormal P1 P2); auto; fold I; lra).
-    assert (D1 : K - h <= P1) by (apply small_left; auto; fold P1; lra).
-    assert (D2 : sa * t - h <= P2) by (apply small_left; auto; fold P2; lra).
-    enough (T - sa * t <= underflow - 3 * h) by lra. apply Rmult_le_reg_r with q; [lra |].
-    apply Rle_trans with (2 := underflow_products B).
-    assert (sa * t * (1 - q) <= (smallest_normal - eta) * (1 - q)) by (apply Rmult_le_compat_r; lra). lra.
+  intros ND NSb PA PD PSa PSb I C. generalize (eta_positive emin). intros PE.
+  destruct (product_left a sa b sb) as (_ & _ & _ & S); auto. fold I in S. destruct S as (w & W & K); [lra |].
+  enough (sa * (b + sb) - w <= underflow - 3 * h) by lra. apply Rmult_le_reg_r with q; [lra |].
+  apply Rle_trans with (2 := underflow_products B).
+  assert (w * (1 - q) <= (smallest_normal - eta) * (1 - q)) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
 Lemma multiply_sound a x sa b y sb :
   number a -> number b -> number sa -> number sb -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
@@ -258,8 +231,9 @@ Proof.
   unfold multiply. cbv zeta. destruct (is_zero a sa || is_zero b sb) eqn:Zero.
   { destruct (product_with_zero a x sa b y sb HA HB Zero) as [-> ->].
     rewrite (rounding_0 B), rnd_0, Rminus_0_r, Rabs_R0. lra. }
-  destruct (product_inherited (Rabs a) sa (Rabs b) sb) as (PX & PI & Large & Small); auto using number_abs, Rabs_pos.
-  revert PX PI Large Small. set (I := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb)))).
+  destruct (product_left (Rabs a) sa (Rabs b) sb) as (PX & PI & Large & _); auto using number_abs, Rabs_pos.
+  assert (Small := product_small (Rabs a) sa (Rabs b) sb (number_abs _ _ _ D) SB (Rabs_pos a) (Rabs_pos b) PA PB).
+  revert PX PI Large Small. cbv zeta. set (I := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb)))).
   set (X := Rabs a * sb + sa * (Rabs b + sb)). intros PX PI Large Small.
   set (R := rounding (fl (a * b))). assert (PR : 0 <= R) by apply (rounding_nonnegative B).
   apply Rle_trans with (R + h + X).
@@ -334,7 +308,7 @@ Lemma quotient_inflated Z w : 0 <= Z -> 0 <= w -> Z * (q * q * q * q) <= w ->
 Proof.
   intros PZ Pw W. generalize (factor_1 B). intros F. rewrite (factor B). set (I := fl w).
   assert (PI : 0 <= I) by now apply rnd_nonnegative. split; intros C.
-  - assert (D1 : w - h <= I) by (now apply small_left).
+  - assert (D1 : w - h <= I) by (apply small_left; auto; now apply (rnd_subnormal p emin direction)).
     generalize (any_left (I * f) ltac:(apply Rmult_le_pos; lra)). intros D2.
     assert (D3 : (Z * (q * q * q * q) - h) * (f * q) <= I * (f * q)) by (apply Rmult_le_compat_r; nra).
     assert (Z * 1 <= Z * (f * (q * q * q * q * q))) by (apply Rmult_le_compat_l; auto using factor_5).
