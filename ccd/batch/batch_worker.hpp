@@ -27,8 +27,8 @@ class batch_worker {
     batch_worker(const batch_kernels& kernels, bool counted)
         : kernels_(&kernels), counted_(counted) {}
 
-    /// Decides with `exact`. Precondition: coordinates are finite and indices in range. Queries by
-    /// value that are not finite are `uncertain`.
+    /// Decides with `exact`. Precondition for pairs: coordinates are finite and indices in range.
+    /// Stored queries that are not finite are `uncertain`.
     template <cubic_pair Pair>
     void decide(const batch_positions& positions, std::span<const Pair> queries, outcome* answers) {
         kernels<Pair>().indexed(positions, queries.data(), queries.size(), {}, answers,

@@ -52,11 +52,11 @@ class root_search {
     /// The coefficients, rounded and scaled by one power of two.
     constexpr const std::array<double, N + 1>& floating() const { return floating_.h; }
 
-    /// The polynomial changes its sign at exactly one root in (low, high). Returns this root, or
-    /// another root there that is a double. `before` is the sign just above low. Returns nothing if
-    /// the root is too near to 0 for fixed widths. Proof: proofs/times/TimeBrackets.v,
-    /// search_right; of the loop and the number of signs, proofs/times/TimeSearch.v,
-    /// between_searches, search_ends, double_numbers.
+    /// The polynomial changes its sign at exactly one root in (low, high). Returns this root, or a
+    /// root without a change there that equals a `double`. `before` is the sign just above low.
+    /// Returns nothing if the root is too near to 0 for fixed widths. Proof:
+    /// proofs/times/TimeBrackets.v, search_right; of the loop and the number of signs,
+    /// proofs/times/TimeSearch.v, between_searches, search_ends, double_numbers.
     constexpr std::optional<time_bracket> between(double low, double high,
                                                   errbound::sign_type before,
                                                   double estimate) const {

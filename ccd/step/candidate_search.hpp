@@ -149,7 +149,7 @@ class candidate_search {
         const search_kernels& kernels;
         const wanted_candidates& wanted;
         active_parts* active;  // null: all pairs are searched
-        bool rests;            // positions are those at the start
+        bool rests;            // all positions at the end are those at the start
     };
 
     struct extents_trees {

@@ -24,9 +24,9 @@ constexpr std::size_t sampling_stride(std::size_t count) {
 class short_way {
   public:
     /// With `spare`, the error also covers straight ways to the rounded positions that `between`
-    /// (ccd/step/advance/advancing.hpp) returns for one fraction, at most t, of all vertices.
+    /// (ccd/step/advance/advancing.hpp) returns if all vertices have one fraction, at most t.
     /// Preconditions: positions are finite, 0 <= t < 1.
-    [[gnu::noinline]] short_way(const vertex_rows& way, double t, bool spare = false)  // -Werror
+    [[gnu::noinline]] short_way(const vertex_rows& way, double t, bool spare = false)  // g++ warns
         : end_(way, t, spare),
           way_{way.before, end_.positions.data(), way.vertices},
           rounded_(way_) {}
@@ -56,9 +56,9 @@ class short_way {
     /// (1 − t)·x + t·y has four roundings, each of at most u of |(1 − t)·x| + |t·y|, or 2^-1075.
     /// Proof: proofs/filters/Extents.v, after_near.
     /// The spare covers std::lerp and 1024 last places: 2056 times u of the size of x or of the end
-    /// of the way until t, or 2^-1064. So a pair that is apart at both ends stays apart at every
-    /// fraction, even after the roundings. Proof: proofs/filters/Extents.v, shorter_face_separate,
-    /// shorter_edges_separate.
+    /// of the way until t, or 2^-1064. So an axis that separates a pair at both ends separates it
+    /// on the way to each fraction, even after the roundings. Proof: proofs/filters/Extents.v,
+    /// shorter_face_separate, shorter_edges_separate.
     struct rounded_end {
         std::vector<double> positions;
         double error = 0;
@@ -176,7 +176,7 @@ class swept_boxes {
         if (!distances_.thickness.empty()) return distances_.thickness_of(element);
         return above(distances_.all / 2);
     }
-    /// At least any real number that rounds to x in some direction, and at most the largest double.
+    /// At least any real number that rounds to x in some direction; at most the largest double.
     static double above(double x) {
         constexpr double most = std::numeric_limits<double>::max();
         return std::min(std::nextafter(x, std::numeric_limits<double>::infinity()), most);

@@ -131,7 +131,7 @@ first_contact find_first_contact(const Query& query, double t_max = 1) {
 /// - smaller features meet: even a tiny change of positions can then make other features meet
 ///   first;
 /// - the root is multiple, or so close to a multiple one that the normal velocity may be 0;
-/// - two vertices meet, or a vertex and an edge outside the plane. Almost every change parts them.
+/// - two vertices meet, or a vertex and an edge in space. Almost every change parts them.
 /// For a vertex and an edge in the plane (all z are equal), motions stay in it: derivatives by z
 /// are 0. At t = 1, the motion counts as continued after the step.
 struct time_derivative {

@@ -165,8 +165,8 @@ inline pair_distances near_distances(const advance_options& options, std::vector
 template <class Others>
 class advancing {
   public:
-    /// Precondition: `groups` joins only vertices with one index in advance_options::groups, or all
-    /// if `islands` is false.
+    /// Precondition: `groups` has joined two vertices exactly if they have the same index in
+    /// advance_options::groups; without `islands`, it has joined all vertices.
     /// With `islands`, groups have their own fractions.
     advancing(mesh_steps& steps, const vertex_rows& way, const advance_options& options,
               bool islands, vertex_groups& groups, Others& others)

@@ -145,7 +145,7 @@ range function_over(const range& a) {
     return both(low, high);  // monotone
 }
 
-/// x^y over a and b; unknown unless a > 0, or b is a whole number (positive if a may be 0).
+/// x^y over a and b; unknown unless a > 0, or b is a whole number (not negative if a may be 0).
 inline range power_over(const range& a, const range& b) {
     constexpr auto pow = elementary_function::pow;
     if (!a.is_finite() || !b.is_finite()) return range::unknown();

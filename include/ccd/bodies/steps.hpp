@@ -43,11 +43,12 @@ struct body_step_options {
 struct body_step_result {
     pair_lists pairs;
     time_lists times;              ///< the first time of each of `pairs`
-    pair_lists touching_at_start;  ///< the members of `pairs` that touch at t = 0
+    pair_lists touching_at_start;  ///< those of `pairs` in contact, or in the distance, at t = 0
+
     /// With check_start: edges that go through the inside of another body's face at t = 0, sorted.
-    /// Surfaces of two tested bodies are apart at t = 0 if the bodies have no pair here and none
-    /// that touches at t = 0. Without a distance, only then. Exact for the poses as given, without
-    /// rounding.
+    /// If two tested bodies have no pair here and none in touching_at_start, their surfaces are
+    /// apart at t = 0. Without a distance, the reverse holds, too. Exact for the poses as given,
+    /// without rounding.
     std::vector<edge_face_pair> crossing_at_start;
     first_time first_contact;    ///< the earliest not at t = 0; `separate` if there is none
     pair_lists first_pairs;      ///< the members of `pairs` with that time

@@ -5,7 +5,7 @@
 // x·Π(1 + δᵢ)^±1 with k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter). So v and x
 // have the same sign, and |ln(v/x)| <= kw with w = −ln(1 − u); k need not be whole. Exact numbers
 // have k = 0. The error is about k·u|v|. It is infinite after an overflow, and for subnormal
-// results, except of sums. It is infinite if kw >= 7/4, and if cancellation leaves a result no
+// results that may be rounded. It is infinite if kw >= 7/4, and if cancellation leaves a result no
 // larger than its error, such as x − x of an inexact x.
 #pragma once
 

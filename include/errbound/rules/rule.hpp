@@ -196,10 +196,10 @@ struct rule_check {
 //                                           negative; default: from the error of a
 //   fused(result, a, b, c)                  the bound of ab + c, rounded once; default: from errors
 //   keeps_first_order                       true if bounds store signed errors (residual) or
-//                                           sources of errors (affine). A rule without square_root
-//                                           (fused) then has two bounds of √a (of ab + c): the
-//                                           default, and one by its operations, with divide. The
-//                                           smaller counts.
+//                                           sources of errors (affine). tracked then also bounds
+//                                           √a and ab + c by add, subtract, multiply and divide,
+//                                           unless the rule has square_root or fused. The better
+//                                           bound counts (functions.hpp).
 //   is_crowded(bound)                       with keeps_first_order: true if the bound has no room
 //                                           for another source; √a then becomes one new source.
 //   displacement(value)                     the bound of a number with this value whose exact
