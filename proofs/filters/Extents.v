@@ -101,41 +101,11 @@ Qed.
 (** A projection in the units of floats. *)
 Definition scaled (n p : point) : R := dot n (minus p (middle f)) * scale f.
 
-Lemma sum_size r s : Rabs r <= 1.001 -> Rabs s <= 1.001 -> Rabs (single (r + s)) <= 2.003.
-Proof.
-  intros A B. destruct tiny_constants as (_ & _ & E3 & E4 & E5 & _).
-  pose proof (single_near direction (r + s)) as N. pose proof (Rabs_triang r s) as T.
-  assert (eps * Rabs (r + s) <= eps * 2.002) by (apply Rmult_le_compat_l; lra).
-  assert (M : Rabs (single (r + s) - (r + s)) <= 0.001) by lra.
-  assert (C : Rabs (r + s) <= 2.002) by lra.
-  apply Rabs_le_inv in M, C. apply Rabs_le. lra.
-Qed.
-Lemma difference_size r s : Rabs r <= 1.001 -> Rabs s <= 1.001 -> Rabs (single (r - s)) <= 2.003.
-Proof. intros A B. apply (sum_size r (- s)); auto. now rewrite Rabs_Ropp. Qed.
-
 Lemma diagonal_near a p : In a (diagonals_in_float direction) ->
   number (x p) -> number (y p) -> number (z p) -> inside_box low high p ->
   Rabs (fst a (rounded_point direction f p)) <= 2.003 /\
   Rabs (fst a (rounded_point direction f p) - scaled (snd a) p) <= 4.05 * eps.
-Proof.
-  intros I Px Py Pz B.
-  destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & H).
-  destruct (H p B) as (Hx & Hy & Hz).
-  assert (N : number (x (middle f)) /\ number (y (middle f)) /\ number (z (middle f)))
-    by (repeat split; apply double_number; auto). destruct N as (Cx & Cy & Cz).
-  pose proof (rounded_near direction _ _ _ Px Cx S Hx) as (Lx & Ex).
-  pose proof (rounded_near direction _ _ _ Py Cy S Hy) as (Ly & Ey).
-  pose proof (rounded_near direction _ _ _ Pz Cz S Hz) as (Lz & Ez).
-  unfold rounded_point, scaled, dot, minus. set (c := middle f) in *. set (s := scale f) in *. clearbody c s.
-  destruct I as [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]; cbn [fst snd x y z];
-    (split; [(now apply sum_size) || now apply difference_size |]);
-    match goal with
-    | A : Rabs (?a - ?r) <= _, B : Rabs (?b - ?t) <= _ |- Rabs (_ (?a + ?b) - ?v) <= _ =>
-        replace v with (r + t) by ring; now apply sum_in_float
-    | A : Rabs (?a - ?r) <= _, B : Rabs (?b - ?t) <= _ |- Rabs (_ (?a - ?b) - ?v) <= _ =>
-        replace v with (r - t) by ring; now apply difference_in_float
-    end.
-Qed.
+Proof. now apply projection_near. Qed.
 
 (** Moved outwards and rounded, the computed projection is still beyond the exact one: 7 - 2.01 > 4.05. *)
 Lemma moved_outwards r g : Rabs r <= 2.003 -> Rabs (r - g) <= 4.05 * eps ->
@@ -393,14 +363,9 @@ Lemma coordinate_near a p : In a coordinates_in_float ->
   Rabs (fst a (rounded_point direction f p) - scaled (snd a) p) <= 1.01 * eps.
 Proof.
   intros I Px Py Pz B.
-  destruct (scale_bounds direction low high low_numbers high_numbers low_bounded high_bounded) as (S & H).
-  destruct (H p B) as (Hx & Hy & Hz).
-  assert (N : number (x (middle f)) /\ number (y (middle f)) /\ number (z (middle f)))
-    by (repeat split; apply double_number; auto). destruct N as (Cx & Cy & Cz).
-  pose proof (rounded_near direction _ _ _ Px Cx S Hx) as (Lx & Ex).
-  pose proof (rounded_near direction _ _ _ Py Cy S Hy) as (Ly & Ey).
-  pose proof (rounded_near direction _ _ _ Pz Cz S Hz) as (Lz & Ez).
-  unfold rounded_point, scaled, dot, minus. set (c := middle f) in *. set (s := scale f) in *. clearbody c s.
+  destruct (rounded_point_near direction low high low_numbers high_numbers low_bounded high_bounded p Px Py Pz B)
+    as ((Lx & Ex) & (Ly & Ey) & (Lz & Ez)).
+  set (r := rounded_point direction f p) in *. unfold scaled, dot, minus. clearbody r.
   destruct I as [<- | [<- | [<- | []]]]; cbn [fst snd x y z]; rewrite !Rmult_0_l, ?Rplus_0_l, ?Rplus_0_r, Rmult_1_l;
     split; lra || easy.
 Qed.

@@ -277,52 +277,58 @@ Proof.
 Qed.
 
 Lemma sum_in_float r s r' s' : Rabs r' <= 1.001 -> Rabs s' <= 1.001 ->
-  Rabs (r' - r) <= 1.01 * eps -> Rabs (s' - s) <= 1.01 * eps -> Rabs (single (r' + s') - (r + s)) <= 4.05 * eps.
+  Rabs (r' - r) <= 1.01 * eps -> Rabs (s' - s) <= 1.01 * eps ->
+  Rabs (single (r' + s')) <= 2.003 /\ Rabs (single (r' + s') - (r + s)) <= 4.05 * eps.
 Proof.
   intros A B C D. destruct tiny_constants as (E1 & E2 & E3 & E4 & E5 & E6 & _).
   pose proof (single_near (r' + s')) as N. pose proof (Rabs_triang r' s') as T.
   assert (eps * Rabs (r' + s') <= eps * 2.002) by (apply Rmult_le_compat_l; lra).
-  apply Rabs_le_inv in C, D. assert (M : Rabs (single (r' + s') - (r' + s')) <= 2.01 * eps) by lra.
-  apply Rabs_le_inv in M. apply Rabs_le. lra.
+  assert (M : Rabs (single (r' + s') - (r' + s')) <= 2.01 * eps) by lra.
+  assert (S : Rabs (r' + s') <= 2.002) by lra.
+  apply Rabs_le_inv in C, D, M, S. split; apply Rabs_le; lra.
 Qed.
 Lemma difference_in_float r s r' s' : Rabs r' <= 1.001 -> Rabs s' <= 1.001 ->
-  Rabs (r' - r) <= 1.01 * eps -> Rabs (s' - s) <= 1.01 * eps -> Rabs (single (r' - s') - (r - s)) <= 4.05 * eps.
+  Rabs (r' - r) <= 1.01 * eps -> Rabs (s' - s) <= 1.01 * eps ->
+  Rabs (single (r' - s')) <= 2.003 /\ Rabs (single (r' - s') - (r - s)) <= 4.05 * eps.
 Proof.
   intros A B C D. apply (sum_in_float r (- s) r' (- s')); auto; [now rewrite Rabs_Ropp |].
   replace (- s' - - s) with (- (s' - s)) by ring. now rewrite Rabs_Ropp.
 Qed.
+
+(** A rounded point of the box, and its projections. *)
+Lemma rounded_point_near p : number (x p) -> number (y p) -> number (z p) -> inside_box p ->
+  let near r v := Rabs r <= 1.001 /\ Rabs (r - v * scale f) <= 1.01 * eps in
+  near (x (rounded_point f p)) (x p - x (middle f)) /\ near (y (rounded_point f p)) (y p - y (middle f)) /\
+  near (z (rounded_point f p)) (z p - z (middle f)).
+Proof.
+  intros Px Py Pz B. destruct scale_bounds as (S & H). destruct (H p B) as (Hx & Hy & Hz).
+  repeat split; apply rounded_near; auto; apply double_number.
+Qed.
+Lemma projection_near a p : In a diagonals_in_float ->
+  number (x p) -> number (y p) -> number (z p) -> inside_box p ->
+  Rabs (fst a (rounded_point f p)) <= 2.003 /\
+  Rabs (fst a (rounded_point f p) - dot (snd a) (minus p (middle f)) * scale f) <= 4.05 * eps.
+Proof.
+  intros I Px Py Pz B. destruct (rounded_point_near p Px Py Pz B) as ((Lx & Ex) & (Ly & Ey) & (Lz & Ez)).
+  set (r := rounded_point f p) in *. unfold dot, minus. set (c := middle f) in *. set (s := scale f) in *.
+  clearbody c s r.
+  destruct I as [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]; cbn [fst snd x y z];
+    match goal with
+    | A : Rabs (?a - ?r) <= _, B : Rabs (?b - ?t) <= _ |- _ /\ Rabs (_ (?a + ?b) - ?v) <= _ =>
+        replace v with (r + t) by ring; now apply sum_in_float
+    | A : Rabs (?a - ?r) <= _, B : Rabs (?b - ?t) <= _ |- _ /\ Rabs (_ (?a - ?b) - ?v) <= _ =>
+        replace v with (r - t) by ring; now apply difference_in_float
+    end.
+Qed.
 Lemma diagonals_tell a : In a diagonals_in_float -> tells float_margin a.
 Proof.
-  intros I p q Px Py Pz Qx Qy Qz Bp Bq. destruct scale_bounds as (S & H).
-  destruct (H p Bp) as (Hpx & Hpy & Hpz), (H q Bq) as (Hqx & Hqy & Hqz).
-  assert (Nc : number (x (middle f)) /\ number (y (middle f)) /\ number (z (middle f)))
-    by (repeat split; apply double_number). destruct Nc as (Cx & Cy & Cz).
-  pose proof (rounded_near _ _ _ Px Cx S Hpx) as (Lpx & Epx).
-    pose proof (rounded_near _ _ _ Py Cy S Hpy) as (Lpy & Epy).
-  pose proof (rounded_near _ _ _ Pz Cz S Hpz) as (Lpz & Epz).
-    pose proof (rounded_near _ _ _ Qx Cx S Hqx) as (Lqx & Eqx).
-  pose proof (rounded_near _ _ _ Qy Cy S Hqy) as (Lqy & Eqy).
-    pose proof (rounded_near _ _ _ Qz Cz S Hqz) as (Lqz & Eqz).
-  destruct tiny_constants as (_ & _ & _ & E4 & _). unfold rounded_point, dot.
-  set (c := middle f) in *. set (s := scale f) in *. clearbody c s.
-  assert (Final : forall g h g' h', Rabs (g' - g * s) <= 4.05 * eps -> Rabs (h' - h * s) <= 4.05 * eps ->
-    float_margin < h' - g' -> g < h).
-  { intros g h g' h' G H' L. apply Rabs_le_inv in G, H'. unfold float_margin in L.
-    assert (0 < (h - g) * s) by lra. destruct (Rle_or_lt h g) as [C |]; [| easy].
-    assert (0 <= (g - h) * s) by (apply Rmult_le_pos; lra). lra. }
-  destruct I as [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]; cbn [fst snd x y z]; intros L.
-  - enough ((x p - x c) + (y p - y c) < (x q - x c) + (y q - y c)) by lra.
-    eapply Final; [| | exact L]; rewrite Rmult_plus_distr_r; now apply sum_in_float.
-  - enough ((x p - x c) - (y p - y c) < (x q - x c) - (y q - y c)) by lra.
-    eapply Final; [| | exact L]; rewrite Rmult_minus_distr_r; now apply difference_in_float.
-  - enough ((y p - y c) + (z p - z c) < (y q - y c) + (z q - z c)) by lra.
-    eapply Final; [| | exact L]; rewrite Rmult_plus_distr_r; now apply sum_in_float.
-  - enough ((y p - y c) - (z p - z c) < (y q - y c) - (z q - z c)) by lra.
-    eapply Final; [| | exact L]; rewrite Rmult_minus_distr_r; now apply difference_in_float.
-  - enough ((z p - z c) + (x p - x c) < (z q - z c) + (x q - x c)) by lra.
-    eapply Final; [| | exact L]; rewrite Rmult_plus_distr_r; now apply sum_in_float.
-  - enough ((z p - z c) - (x p - x c) < (z q - z c) - (x q - x c)) by lra.
-    eapply Final; [| | exact L]; rewrite Rmult_minus_distr_r; now apply difference_in_float.
+  intros I p q Px Py Pz Qx Qy Qz Bp Bq L. destruct scale_bounds as (S & _).
+  destruct (projection_near a p I Px Py Pz Bp) as (_ & Ep), (projection_near a q I Qx Qy Qz Bq) as (_ & Eq).
+  assert (M : forall r, dot (snd a) (minus r (middle f)) = dot (snd a) r - dot (snd a) (middle f))
+    by (intros; unfold dot, minus; cbn [x y z]; ring).
+  rewrite M in Ep, Eq. apply Rabs_le_inv in Ep, Eq. unfold float_margin in L.
+  destruct tiny_constants as (_ & _ & _ & E4 & _). apply Rnot_le_lt. intros C.
+  assert (0 <= (dot (snd a) p - dot (snd a) q) * scale f) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
 (** ** Queries *)

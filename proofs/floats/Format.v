@@ -13,6 +13,18 @@ From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core Relative Plus_error Mult_error.
 Open Scope R_scope.
 
+(** Errors of negations, of sums, and by an intermediate value. *)
+Lemma within_opp b y s : Rabs (b - y) <= s -> Rabs (- b - - y) <= s.
+Proof. replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp. Qed.
+Lemma within_through m v x r s : Rabs (v - m) <= r -> Rabs (m - x) <= s -> Rabs (v - x) <= r + s.
+Proof. intros R S. apply Rabs_le_inv in R, S. apply Rabs_le. lra. Qed.
+Lemma within_sum a x sa b y sb : Rabs (a - x) <= sa -> Rabs (b - y) <= sb -> Rabs (a + b - (x + y)) <= sa + sb.
+Proof. intros A B. apply Rabs_le_inv in A, B. apply Rabs_le. lra. Qed.
+Lemma within_positive a x s : Rabs (a - x) <= s -> 0 <= s.
+Proof. generalize (Rabs_pos (a - x)). lra. Qed.
+Lemma within_0 a x : Rabs (a - x) <= 0 -> a = x.
+Proof. intros H. apply Rabs_le_inv in H. lra. Qed.
+
 (** (1 + e)^k <= 1 + ke + (ke)^2 for ke <= 1. *)
 Lemma power_quadratic e n : 0 <= e -> INR n * e <= 1 ->
   (1 + e) ^ n <= 1 + INR n * e + (INR n * e) * (INR n * e).
@@ -199,6 +211,14 @@ Proof.
   - generalize eta_positive; lra.
 Qed.
 
+(** The factors of the rules, 1 + 2^k eps, are numbers. *)
+Lemma rnd_factor (k : Z) : (2 <= p)%Z -> (emin <= - p)%Z -> (0 <= k <= p)%Z ->
+  rnd (1 + rnd (bpow radix2 k * eps)) = 1 + bpow radix2 k * eps.
+Proof.
+  intros P L K. unfold eps. rewrite <- bpow_plus. replace (k + (1 - p))%Z with (k + 1 - p)%Z by lia.
+  rewrite (rnd_exact (bpow _ _)) by (apply number_power; lia). apply rnd_exact, number_1_power; lia.
+Qed.
+
 (** Sums that underflow are exact: up to 2^p eta, twice the smallest normal number. *)
 Lemma sum_exact x y :
   number x -> number y -> Rabs (x + y) <= bpow radix2 (p + emin) -> number (x + y).
@@ -375,153 +395,68 @@ Qed.
 Lemma scaled_up x f : number x -> 0 <= x -> 1 <= f -> x <= rnd (x * f).
 Proof. intros X P H. apply rnd_above; auto. nra. Qed.
 
-Lemma inflated_relative x f :
-  number x -> smallest_normal <= x -> 1 <= f -> x * f * (1 - r) <= rnd (x * f).
-Proof.
-  intros X P H. apply rnd_relative. generalize smallest_normal_positive. nra.
-Qed.
-
 End Lower.
 
-(** A rounding leaves at least q times a normal number, and all but h of a smaller one. *)
-Section Leaves.
+(** A rounding leaves at least the share q of a normal number, and all but h of a smaller one. *)
+Section Share.
 
-Context (q h : R) (q_1 : 0 < q <= 1) (h_eta : 0 <= h <= eta)
-  (leaves_normal : forall x, smallest_normal <= Rabs x -> Rabs x * q <= Rabs (rnd x))
-  (leaves_small : forall x, Rabs x < smallest_normal -> Rabs x - h <= Rabs (rnd x)).
+Context (q h : R) (q_1 : 0 < q <= 1) (h_0 : 0 <= h) (normal : forall x, smallest_normal <= x -> x * q <= rnd x)
+  (small : forall x, 0 <= x -> x < smallest_normal -> x - h <= rnd x).
 
-Lemma normal_left x : smallest_normal <= x -> x * q <= rnd x.
-Proof.
-  intros C. generalize smallest_normal_positive. intros P. generalize (leaves_normal x).
-  rewrite (Rabs_pos_eq x), (Rabs_pos_eq (rnd x)) by (try apply rnd_nonnegative; lra). auto.
-Qed.
-Lemma small_left x : 0 <= x -> x < smallest_normal -> x - h <= rnd x.
-Proof.
-  intros P C. generalize (leaves_small x).
-  rewrite (Rabs_pos_eq x), (Rabs_pos_eq (rnd x)) by (try apply rnd_nonnegative; lra).
-  auto.
-Qed.
 Lemma any_left x : 0 <= x -> x * q - h <= rnd x.
 Proof.
   intros P. destruct (Rlt_or_le x smallest_normal) as [C | C].
-  - generalize (small_left x P C). nra.
-  - generalize (normal_left x C). lra.
+  - generalize (small x P C). nra.
+  - generalize (normal x C). lra.
 Qed.
 Lemma sum_left x y : number x -> number y -> 0 <= x + y -> (x + y) * q <= rnd (x + y).
 Proof.
-  intros X Y P. destruct (Rlt_or_le (x + y) smallest_normal) as [C | C]; [| now apply normal_left].
+  intros X Y P. destruct (Rlt_or_le (x + y) smallest_normal) as [C | C]; [| now apply normal].
   rewrite sum_exact_below by (auto; rewrite Rabs_pos_eq; lra). nra.
 Qed.
-Lemma scaled_left s f : smallest_normal <= s -> 1 <= f -> s * (f * q) <= rnd (s * f).
-Proof. intros M F. rewrite <- Rmult_assoc. apply normal_left. generalize smallest_normal_positive. nra. Qed.
 
-(** A sum of three terms, times a factor that covers three roundings. *)
-Lemma sum_of_three x y z f : 1 <= f -> 1 <= f * (q * q * q) ->
-  number x -> number y -> number z -> 0 <= x -> 0 <= y -> 0 <= z -> x + y + z <= rnd (rnd (rnd (x + y) + z) * f).
+(** If s is at least k x, and the factor g covers k and one more rounding, s g as computed is at least x. *)
+Lemma scaled_left s g : smallest_normal <= s -> 1 <= g -> s * (g * q) <= rnd (s * g).
+Proof. intros M G. rewrite <- Rmult_assoc. apply normal. generalize smallest_normal_positive. nra. Qed.
+Lemma scaled_covers x s k g : number s -> 0 <= x -> 0 <= s -> 1 <= g -> 1 <= g * (k * q) -> x * k <= s ->
+  (s < smallest_normal -> x <= s) -> x <= rnd (s * g).
 Proof.
-  intros F F3 X Y Z PX PY PZ. assert (N : 0 <= rnd (x + y)) by (apply rnd_nonnegative; lra).
-  set (s := rnd (rnd (x + y) + z)). assert (S : number s) by apply rnd_number.
-  assert (NS : rnd (x + y) <= s) by (apply rnd_above; [apply rnd_number | lra]).
-  destruct (Rlt_or_le s smallest_normal) as [C | C].
-  - apply Rle_trans with s; [| apply scaled_up; auto; lra].
-    unfold s. rewrite (sum_subnormal _ z); auto using rnd_number.
-    rewrite (sum_subnormal x y); auto; lra.
-  - apply Rle_trans with (2 := scaled_left s f C F).
-    generalize (sum_left x y X Y ltac:(lra)) (sum_left (rnd (x + y)) z (rnd_number _) Z ltac:(lra)). fold s. intros A B.
-    assert (D : (x + y + z) * (q * q) <= s).
-    { apply Rle_trans with (2 := B). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; [lra |].
-      assert (z * q <= z) by nra. lra. }
-    apply Rle_trans with ((x + y + z) * (q * q) * (f * q)).
-    + replace ((x + y + z) * (q * q) * (f * q)) with ((x + y + z) * (f * (q * q * q))) by ring. nra.
-    + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
-Qed.
-
-(** |s| in terms of the rounded s. *)
-Lemma covered_by_rounded s f : 1 <= f -> 1 <= f * (q * q * q) -> Rabs s <= rnd (rnd (Rabs (rnd s) + eta) * f).
-Proof.
-  intros F F3. generalize eta_positive (Rabs_pos s) (Rabs_pos (rnd s)); intros. set (w := rnd (Rabs (rnd s) + eta)).
-  assert (N : number (Rabs (rnd s))) by (apply number_abs, rnd_number). assert (W : number w) by apply rnd_number.
-  assert (V : Rabs (rnd s) <= w) by (apply rnd_above; auto; lra).
-  destruct (Rlt_or_le w smallest_normal) as [C | C].
-  - apply Rle_trans with w; [| apply scaled_up; auto; lra].
-    unfold w. rewrite sum_subnormal; auto using number_eta; try lra.
-    enough (Rabs s - h <= Rabs (rnd s)) by lra. apply leaves_small. apply Rnot_le_lt. intros S.
-    apply rnd_abs_above in S; auto using number_smallest_normal. lra.
-  - apply Rle_trans with (2 := scaled_left w f C F).
-    assert (A : Rabs s * q <= Rabs (rnd s) + eta).
-    { destruct (Rlt_or_le (Rabs s) smallest_normal) as [S | S].
-      - generalize (leaves_small s S). intros. nra.
-      - generalize (leaves_normal s S). lra. }
-    generalize (sum_left (Rabs (rnd s)) eta N number_eta ltac:(lra)). fold w. intros G.
-    assert (K : Rabs s * (q * q) <= w).
-    { apply Rle_trans with (2 := G). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
-    apply Rle_trans with (Rabs s * (q * q) * (f * q)).
-    + replace (Rabs s * (q * q) * (f * q)) with (Rabs s * (f * (q * q * q))) by ring. nra.
+  intros N X S G K L Small. destruct (Rlt_or_le s smallest_normal) as [C | C].
+  - apply Rle_trans with s; auto. apply scaled_up; auto.
+  - apply Rle_trans with (2 := scaled_left s g C G). apply Rle_trans with (x * k * (g * q)).
+    + replace (x * k * (g * q)) with (x * (g * (k * q))) by ring. nra.
     + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
 Qed.
 
 (** The error that a product inherits from its factors' bounds, as the rules compute it. *)
-Lemma product_inherited A B sa sb d : number B -> number sb -> 0 <= A -> 0 <= B -> 0 <= sa -> 0 <= sb ->
-  (forall x w, 0 <= x -> x * q <= w -> w + eta < smallest_normal -> x - d <= w) ->
-  let inherited := rnd (rnd (A * sb) + rnd (sa * rnd (B + sb))) in
-  let exactly := A * sb + sa * (B + sb) in
-  0 <= inherited /\ (inherited + 2 * eta < smallest_normal -> exactly <= inherited + 2 * h + d) /\
-  (exactly * (q * q) - 2 * h) * q <= inherited.
+Lemma product_left a sa b sb : number b -> number sb -> 0 <= a -> 0 <= b -> 0 <= sa -> 0 <= sb ->
+  let inherited := rnd (rnd (a * sb) + rnd (sa * rnd (b + sb))) in
+  let exactly := a * sb + sa * (b + sb) in
+  0 <= exactly /\ 0 <= inherited /\ (exactly * (q * q) - 2 * h) * q <= inherited /\
+  (inherited < smallest_normal -> exists w, sa * (b + sb) * q <= w <= inherited + h /\ a * sb + w <= inherited + 2 * h).
 Proof.
-  intros NB NSb PA PB PSa PSb Small. cbv zeta. set (t := rnd (B + sb)).
-  set (K := A * sb). set (T := sa * (B + sb)). set (P1 := rnd K). set (P2 := rnd (sa * t)). set (I := rnd (P1 + P2)).
-  assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra). assert (Pst : 0 <= sa * t) by now apply Rmult_le_pos.
+  intros B SB PA PB PSa PSb. cbv zeta. set (w := sa * rnd (b + sb)). set (K := a * sb). set (T := sa * (b + sb)).
+  set (P1 := rnd K). set (P2 := rnd w). set (I := rnd (P1 + P2)).
   assert (PK : 0 <= K) by now apply Rmult_le_pos. assert (PT : 0 <= T) by (apply Rmult_le_pos; lra).
+  assert (Pw : 0 <= w) by (apply Rmult_le_pos; auto; apply rnd_nonnegative; lra).
   assert (Pos1 : 0 <= P1) by now apply rnd_nonnegative. assert (Pos2 : 0 <= P2) by now apply rnd_nonnegative.
   assert (N1 : number P1) by apply rnd_number. assert (N2 : number P2) by apply rnd_number.
-  assert (Ht : T * q <= sa * t).
-  { unfold T. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto. apply sum_left; auto. lra. }
-  split; [apply rnd_nonnegative; lra |]. split.
-  - intros C. generalize eta_positive. intros.
-    assert (L1 : P1 <= I) by (apply rnd_above; auto; lra). assert (L2 : P2 <= I) by (apply rnd_above; auto; lra).
-    assert (EI : I = P1 + P2) by (apply (sum_subnormal P1 P2); auto; fold I; lra).
-    assert (D1 : K - h <= P1) by (apply small_left; auto; apply rnd_subnormal; fold P1; lra).
-    assert (D2 : sa * t - h <= P2) by (apply small_left; auto; apply rnd_subnormal; fold P2; lra).
-    assert (D3 : T - d <= sa * t) by (apply Small; auto; lra). lra.
-  - generalize (any_left K PK) (any_left (sa * t) Pst) (sum_left P1 P2 N1 N2 ltac:(lra)). fold P1 P2 I. intros D1 D2 D3.
+  assert (Hw : T * q <= w).
+  { unfold T, w. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto. apply sum_left; auto. lra. }
+  split; [lra |]. split; [apply rnd_nonnegative; lra |]. split.
+  - generalize (any_left K PK) (any_left w Pw) (sum_left P1 P2 N1 N2 ltac:(lra)). fold P1 P2 I. intros D1 D2 D3.
     apply Rle_trans with (2 := D3). apply Rmult_le_compat_r; [lra |].
     assert (K * (q * q) <= K * q) by (apply Rmult_le_compat_l; nra).
-    assert (T * (q * q) <= sa * t * q) by (rewrite <- Rmult_assoc; apply Rmult_le_compat_r; lra). lra.
+    assert (T * (q * q) <= w * q) by (rewrite <- Rmult_assoc; apply Rmult_le_compat_r; lra). lra.
+  - intros C. assert (L1 : P1 <= I) by (apply rnd_above; auto; lra).
+    assert (L2 : P2 <= I) by (apply rnd_above; auto; lra).
+    assert (EI : I = P1 + P2) by (apply (sum_subnormal P1 P2); auto; fold I; lra).
+    assert (D1 : K - h <= P1) by (apply small; auto; apply rnd_subnormal; fold P1; lra).
+    assert (D2 : w - h <= P2) by (apply small; auto; apply rnd_subnormal; fold P2; lra).
+    exists w. lra.
 Qed.
 
-(** A quotient w that four roundings made less than Z, times a factor that covers five. *)
-Lemma quotient_inflated Z w f : 0 <= Z -> 1 <= f -> 1 <= f * (q * q * q * q * q) -> Z * (q * q * q * q) <= w ->
-  0 <= w ->
-  let inflated := rnd (rnd w * f) in
-  (rnd w < smallest_normal -> Z - h * (1 + f) <= inflated) /\
-  (smallest_normal <= rnd w -> Z * (q * q * q * q) * q * (f * q) <= inflated).
-Proof.
-  intros PZ F F5 W Pw. cbv zeta. set (I := rnd w). assert (PI : 0 <= I) by now apply rnd_nonnegative.
-  assert (PIf : 0 <= I * f) by (apply Rmult_le_pos; lra). split; intros C.
-  - assert (D1 : w - h <= I) by (apply small_left; auto; now apply rnd_subnormal).
-    assert (D2 : Z * f * (q * q * q * q) - h * f <= I * f).
-    { replace (Z * f * (q * q * q * q) - h * f) with ((Z * (q * q * q * q) - h) * f) by ring.
-      apply Rmult_le_compat_r; lra. }
-    assert (Ph : 0 <= h * f) by (apply Rmult_le_pos; lra).
-    generalize (any_left (I * f) PIf). intros D3.
-    assert (D4 : (Z * f * (q * q * q * q) - h * f) * q <= I * f * q) by (apply Rmult_le_compat_r; lra).
-    assert (Z * 1 <= Z * (f * (q * q * q * q * q))) by (apply Rmult_le_compat_l; auto).
-    assert (h * f * q <= h * f * 1) by (apply Rmult_le_compat_l; lra). lra.
-  - apply Rle_trans with (2 := scaled_left I f C F). apply Rmult_le_compat_r; [apply Rmult_le_pos; lra |].
-    apply Rle_trans with (w * q); [apply Rmult_le_compat_r; lra |].
-    destruct (Rlt_or_le w smallest_normal) as [Cw | Cw]; [| now apply normal_left].
-    apply Rle_trans with smallest_normal; auto. assert (w * q <= w * 1) by (apply Rmult_le_compat_l; lra). lra.
-Qed.
-
-End Leaves.
-
-Lemma leaves_of_error r h : rounding_error r h ->
-  (forall x, smallest_normal <= Rabs x -> Rabs x * (1 - r) <= Rabs (rnd x)) /\
-  (forall x, Rabs x < smallest_normal -> Rabs x - h <= Rabs (rnd x)).
-Proof.
-  intros E. split; intros x C; [generalize (error_relative r h E x C) | generalize (error_absolute r h E x C)];
-    generalize (Rabs_triang_inv x (rnd x)); rewrite (Rabs_minus_sym x); lra.
-Qed.
+End Share.
 
 End Rounding.
 

@@ -51,12 +51,10 @@ Proof.
 Qed.
 Lemma half_ulp z : Rabs (fl z - z) <= / 2 * ulp (fl z).
 Proof. apply error_le_half_ulp_round; auto with typeclass_instances. Qed.
-Lemma ulp_nonnegative x : 0 <= ulp x.
-Proof. apply ulp_ge_0. Qed.
 
 Lemma upper_covers z : smallest_normal <= fl z -> z <= upper (fl z).
 Proof.
-  intros H. generalize (half_ulp z) (ulp_nonnegative (fl z)). intros E U.
+  intros H. generalize (half_ulp z) (ulp_ge_0 radix2 (FLT_exp emin p) (fl z)). intros E U.
   apply Rabs_le_inv in E. apply Rle_trans with (fl z + ulp (fl z)); [lra |].
   apply upper_succ; auto. apply rnd_number; auto with typeclass_instances.
 Qed.

@@ -10,16 +10,6 @@ Section Affine.
 
 Context (T : Type) (A : arithmetic T) (has_fast_fma : bool) (limit : nat).
 
-Declare Scope code.
-Infix "+" := (plus T A) : code.
-Infix "-" := (minus T A) : code.
-Infix "*" := (times T A) : code.
-Infix "/" := (over T A) : code.
-Notation "- x" := (opposite T A x) : code.
-Infix "<" := (less T A) : code.
-Infix "<=" := (at_most T A) : code.
-Infix "==" := (equal T A) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
 Notation ε := (epsilon T A).
 Notation η := (underflow_unit T A).
 Notation abs := (abs T A).

@@ -31,6 +31,20 @@ Record arithmetic (T : Type) := {
   infinity : T
 }.
 
+(** The notation of the C++ code. The operations are those of the section's `arithmetic`. *)
+Existing Class arithmetic.
+Declare Scope code.
+Infix "+" := (plus _ _) : code.
+Infix "-" := (minus _ _) : code.
+Infix "*" := (times _ _) : code.
+Infix "/" := (over _ _) : code.
+Notation "- x" := (opposite _ _ x) : code.
+Infix "<" := (less _ _) : code.
+Infix "<=" := (at_most _ _) : code.
+Infix "==" := (equal _ _) (at level 70) : code.
+Notation "# n" := (integer _ _ n%Z) (at level 1, n at level 0, format "# n") : code.
+Notation "∞" := (infinity _ _) : code.
+
 Inductive sign_type := negative | zero | positive | uncertain.
 
 Section Code.
@@ -40,20 +54,9 @@ Context (T : Type) (A : arithmetic T).
     still tests has_fast_fma. From 4 digits on both give the same for every product. *)
 Variable has_fast_fma : bool.
 
-Declare Scope code.
-Infix "+" := (plus T A) : code.
-Infix "-" := (minus T A) : code.
-Infix "*" := (times T A) : code.
-Infix "/" := (over T A) : code.
-Notation "- x" := (opposite T A x) : code.
-Infix "<" := (less T A) : code.
-Infix "<=" := (at_most T A) : code.
-Infix "==" := (equal T A) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
 Notation ε := (epsilon T A).
 Notation u := (unit_roundoff T A).
 Notation η := (underflow_unit T A).
-Notation "∞" := (infinity T A).
 Open Scope code.
 
 (** number_traits.hpp *)

@@ -11,14 +11,6 @@ Section Compound.
 
 Context (T : Type) (A : arithmetic T) (has_fast_fma : bool).
 
-Declare Scope code.
-Infix "+" := (plus T A) : code.
-Infix "-" := (minus T A) : code.
-Infix "*" := (times T A) : code.
-Notation "- x" := (opposite T A x) : code.
-Infix "<" := (less T A) : code.
-Infix "==" := (equal T A) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
 Notation ε := (epsilon T A).
 Notation η := (underflow_unit T A).
 Notation abs := (abs T A).

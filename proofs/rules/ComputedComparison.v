@@ -11,7 +11,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Format.
-From Errbound Require Code Ieee Tight Safe Upper.
+From Errbound Require AbsoluteBound Code Ieee Tight Safe Upper.
 Open Scope R_scope.
 
 Section Computed.
@@ -335,14 +335,14 @@ Proof.
     split; [apply number_0 |]. split; [apply number_0 |]. split; [exact N1 |]. split; [lra |].
     split; [exact P2 |]. split; [exact P1 |]. intros _. split; [| auto].
     generalize (power_1 (snd B)). intros G. repeat apply Rmult_le_pos; lra. }
-  unfold Tight.tight_multiply. cbv zeta.
-  destruct (Tight.is_zero a sa || Tight.is_zero b sb) eqn:TZ.
+  unfold Tight.tight_multiply, AbsoluteBound.multiply, AbsoluteBound.total. cbv zeta.
+  destruct (AbsoluteBound.is_zero a sa || AbsoluteBound.is_zero b sb) eqn:TZ.
   { apply N0. apply orb_prop in TZ.
-    destruct TZ as [TZ | TZ]; apply Tight.is_zero_true in TZ; destruct TZ as [-> _]; ring. }
+    destruct TZ as [TZ | TZ]; apply AbsoluteBound.is_zero_true in TZ; destruct TZ as [-> _]; ring. }
   clear N0. unfold Safe.safe_multiply in EB. destruct (Safe.is_zero a ka || Safe.is_zero b kb) eqn:SZ.
   { exfalso. assert (Q : forall x s X k, ((k < Safe.too_many)%Z -> s <= c * (power k - 1) * X /\ (k = 0%Z -> s = 0)) ->
-      Tight.is_zero x s = false -> Safe.is_zero x k = false).
-    { intros x s X k H. unfold Tight.is_zero, Safe.is_zero. destruct (Req_bool x 0); auto. cbn [andb].
+      AbsoluteBound.is_zero x s = false -> Safe.is_zero x k = false).
+    { intros x s X k H. unfold AbsoluteBound.is_zero, Safe.is_zero. destruct (Req_bool x 0); auto. cbn [andb].
       destruct (Z.eqb_spec k 0) as [-> | ]; auto. destruct (H ltac:(reflexivity)) as [_ H0].
       rewrite Req_bool_true; auto. }
     apply orb_false_elim in TZ. destruct TZ as [T1 T2].
@@ -572,7 +572,8 @@ Proof.
     rewrite Rle_bool_true by lra. reflexivity. }
   - replace (Tight.tight_exact p emin nearest eta) with 0
       by (unfold Tight.tight_exact; rewrite Rminus_eq_0; symmetry; apply (rnd_0 p emin nearest)).
-    unfold Tight.tight_multiply, Tight.is_zero. rewrite Req_bool_false by lra. cbn [andb orb]. cbv zeta.
+    unfold Tight.tight_multiply, AbsoluteBound.multiply, AbsoluteBound.total, AbsoluteBound.is_zero.
+    rewrite Req_bool_false by lra. cbn [andb orb]. cbv zeta.
     rewrite (Tight.inflated_exact p emin nearest P3 Pp).
     assert (Np : forall x, 0 <= x -> 0 <= rnd p emin nearest x) by (intros; now apply (rnd_nonnegative p emin nearest)).
     assert (N4 : number p emin (4 * eta)) by apply (Tight.number_4_eta p emin).

@@ -11,7 +11,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core.
 From Errbound Require Import Code CompoundCode.
-From Errbound Require Format Tight Sharp.
+From Errbound Require Format AbsoluteBound Tight Sharp.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -57,7 +57,7 @@ Proof.
   - now rewrite Rabs_pos_eq.
 Qed.
 Lemma is_zero_reals a sa : Code.is_zero R reals a sa = true -> a = 0 /\ sa = 0.
-Proof. apply Tight.is_zero_true. Qed.
+Proof. apply AbsoluteBound.is_zero_true. Qed.
 Lemma zero_is_zero : Code.is_zero R reals 0 0 = true.
 Proof. unfold Code.is_zero. cbn [equal reals integer]. now rewrite Req_bool_true. Qed.
 
@@ -73,8 +73,9 @@ Definition exact_dot (pairs : list (R * R)) : R := fold_right (fun xy sum => fst
 Section Running.
 
 (** q is the part that remains after a rounding, h the part that it takes. *)
-Context (q h : R) (q_1 : 0 < q <= 1) (h_0 : 0 <= h) (lower : forall x, 0 <= x -> x * q <= fl x \/ x - h <= fl x)
-  (sum_lower : forall x y, number x -> number y -> 0 <= x -> 0 <= y -> (x + y) * q <= fl (x + y)).
+Context (q h : R) (q_1 : 0 < q <= 1) (h_0 : 0 <= h)
+  (normal : forall x, Format.smallest_normal p emin <= x -> x * q <= fl x)
+  (small : forall x, 0 <= x -> x < Format.smallest_normal p emin -> x - h <= fl x).
 
 Context (most : nat) (factor_units : nat -> Z) (underflows : nat -> nat -> Z) (own_of : bool -> R -> R -> R -> R).
 
@@ -136,8 +137,8 @@ Lemma no_less x c : 0 <= x -> 1 <= c -> x <= x * c.
 Proof. intros X C. rewrite <- (Rmult_1_r x) at 1. apply Rmult_le_compat_l; lra. Qed.
 Lemma less_q x : 0 <= x -> x * q <= x.
 Proof. intros P. rewrite <- (Rmult_1_r x) at 2. apply Rmult_le_compat_l; lra. Qed.
-Lemma lower_both x : 0 <= x -> x * q - h <= fl x.
-Proof. intros P. generalize (less_q x P). destruct (lower x P); lra. Qed.
+Lemma sum_lower x y : number x -> number y -> 0 <= x -> 0 <= y -> (x + y) * q <= fl (x + y).
+Proof. intros. apply (Format.sum_left p emin direction q q_1 normal); auto; lra. Qed.
 
 (** One factor covers the roundings of m terms. *)
 Lemma factor_pays_less m n : (1 <= m <= most)%nat -> (n <= m + 6)%nat -> 1 <= factor m * q ^ n.
@@ -204,7 +205,8 @@ Proof.
     - generalize (All 0%nat ltac:(lia)). simpl. now rewrite Rmult_1_r.
     - generalize (All 1%nat ltac:(lia)). simpl. now rewrite Rmult_1_r, Rmult_assoc. }
   assert (LC : D <= fl (S * factor m)).
-  { destruct (lower (S * factor m)) as [L | L]; [apply Rmult_le_pos; lra | |]; unfold G in *; lra. }
+  { destruct (Rlt_or_le (S * factor m) (Format.smallest_normal p emin)) as [C | C]; unfold G in *;
+      [apply small in C; [lra | apply Rmult_le_pos; lra] | apply normal in C; lra]. }
   rewrite <- EQ in LC. split; [| exact LC].
   assert (NC : number (closed (close_terms r))) by (rewrite EQ; apply rnd_number).
   assert (PC : 0 <= closed (close_terms r)) by (rewrite EQ; apply rnd_nonnegative, Rmult_le_pos; lra).
@@ -213,32 +215,15 @@ Proof.
   exists 0, 0. cbn [INR]. repeat split; lra.
 Qed.
 
-(** The inherited error of an uncertain product is computed with five roundings, as in Tight.v. *)
+(** The inherited error of an uncertain product is computed with five roundings. *)
 Lemma inherited_lower a sa b sb : number a -> number b -> number sa -> number sb -> 0 <= sa -> 0 <= sb ->
   let I := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb))) in
   0 <= I /\ (Rabs a * sb + sa * (Rabs b + sb)) * q ^ 3 - 2 * h <= I.
 Proof.
-  intros A B SA SB PA PB. cbv zeta. generalize (Rabs_pos a) (Rabs_pos b). intros Pa Pb.
-  set (t := fl (Rabs b + sb)). set (P1 := fl (Rabs a * sb)). set (P2 := fl (sa * t)).
-  set (K := Rabs a * sb). set (E := sa * (Rabs b + sb)).
-  assert (PK : 0 <= K) by (apply Rmult_le_pos; lra).
-  assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra).
-  assert (Pst : 0 <= sa * t) by (apply Rmult_le_pos; lra).
-  assert (PP1 : 0 <= P1) by now apply rnd_nonnegative.
-  assert (PP2 : 0 <= P2) by now apply rnd_nonnegative.
-  split; [apply rnd_nonnegative; lra |].
-  assert (Lt : (Rabs b + sb) * q <= t) by (apply sum_lower; auto; now apply Format.number_abs).
-  assert (Lst : E * q <= sa * t).
-  { unfold E. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto. }
-  generalize (lower_both K PK) (lower_both (sa * t) Pst). change (fl K) with P1. fold P2. intros L1 L2.
-  assert (LI : (P1 + P2) * q <= fl (P1 + P2)) by (apply sum_lower; auto; apply rnd_number).
-  apply Rle_trans with (2 := LI).
-  apply Rle_trans with ((K * q - h + (E * q * q - h)) * q).
-  - assert (K * q ^ 3 <= K * q ^ 2) by (apply Rmult_le_compat_l; [auto | apply more_roundings; lia]).
-    generalize (less_q h h_0). fold K E.
-    replace ((K * q - h + (E * q * q - h)) * q) with (K * q ^ 2 + E * q ^ 3 - 2 * (h * q)) by ring. lra.
-  - apply Rmult_le_compat_r; [lra |].
-    assert (E * q * q <= sa * t * q) by (apply Rmult_le_compat_r; lra). lra.
+  intros A B SA SB PA PB. cbv zeta.
+  destruct (Format.product_left p emin direction q h q_1 h_0 normal small (Rabs a) sa (Rabs b) sb) as (_ & P & L & _);
+    auto using Rabs_pos, Format.number_abs.
+  split; auto. apply Rle_trans with (2 := L). generalize (less_q h h_0). simpl. lra.
 Qed.
 
 Lemma add_covers r D v w a sa b sb : (terms r < most)%nat -> covers r D ->
@@ -333,9 +318,9 @@ Proof.
     assert (H : a * b = 0 /\ x * y = 0).
     { apply orb_prop in C0. destruct C0 as [C0 | C0]; apply is_zero_reals in C0; destruct C0 as [V S0].
       - split; [now rewrite V, Rmult_0_l |]. apply Zero. destruct K as [(_ & _ & K) | [(_ & _ & K) | (_ & _ & K & _)]]; auto.
-        left. rewrite S0 in K. apply Tight.within_0 in K. congruence.
+        left. rewrite S0 in K. apply Format.within_0 in K. congruence.
       - split; [now rewrite V, Rmult_0_r |]. apply Zero. destruct K as [(_ & _ & K) | [(_ & _ & K) | (_ & _ & _ & K)]]; auto.
-        right. rewrite S0 in K. apply Tight.within_0 in K. congruence. }
+        right. rewrite S0 in K. apply Format.within_0 in K. congruence. }
     destruct H as [H1 H2]. assert (EA : after = sum).
     { unfold after, product. rewrite H1, rnd_0, Rplus_0_r. now apply rnd_exact. }
     rewrite EA, H2, Rplus_0_r. split; [exact Ns |]. split; [exact Z |]. now split.
@@ -353,7 +338,7 @@ Proof.
     apply covers_less with (2 := C').
     replace (after - (X + x * y)) with
       ((after - (sum + product)) + ((product - a * b) + ((a * b - x * y) + (sum - X)))) by ring.
-    generalize (Tight.product_inherits a x sa b y sb HA HB)
+    generalize (AbsoluteBound.product_inherits a x sa b y sb HA HB)
       (Rabs_triang (after - (sum + product)) ((product - a * b) + ((a * b - x * y) + (sum - X))))
       (Rabs_triang (product - a * b) ((a * b - x * y) + (sum - X))) (Rabs_triang (a * b - x * y) (sum - X)). lra.
 Qed.
@@ -494,10 +479,8 @@ Proof.
     (Format.eta_positive emin) two_p. change (2 ^ 8)%Z with 256%Z. change (2 ^ 7)%Z with 128%Z. intros Rr R1 Rh Pe [T8 T7].
   assert (P3 : (3 <= p)%Z) by lia.
   apply dot_covered with (1 - r) h; auto; try lra.
-  - intros x P. destruct (Rlt_or_le x (Format.smallest_normal p emin)) as [C | C].
-    + right. apply (Format.rnd_absolute p emin direction r h E x P C).
-    + left. now apply (Format.rnd_relative p emin direction r h E).
-  - intros x y X Y PX PY. now apply (Format.sum_relative p emin direction r h E).
+  - apply (Format.rnd_relative p emin direction r h E).
+  - intros x P C. apply (Format.rnd_absolute p emin direction r h E x P C).
   - intros m M. apply terms_squared in M. unfold factor, tight_units. apply small_units_exact; auto; lia.
   - apply tight_factor_pays.
   - intros m k L. assert (m <= 8)%nat.
@@ -570,10 +553,8 @@ Proof.
   assert (T5 : (2 ^ 5 <= 2 ^ p)%Z) by (apply Z.pow_le_mono_r; lia). change (2 ^ 5)%Z with 32%Z in T5.
   assert (T4 : (2 ^ 4 <= 2 ^ (p - 1))%Z) by (apply Z.pow_le_mono_r; lia). change (2 ^ 4)%Z with 16%Z in T4.
   apply dot_covered with (/ (1 + u)) (Format.eta emin / 2); auto with typeclass_instances; try lra.
-  - intros x P. destruct (Rlt_or_le x (Format.smallest_normal p emin)) as [C | C].
-    + right. apply (Format.rnd_absolute p emin nearest _ _ E x P C).
-    + left. now apply (Sharp.normal_relative p emin P3).
-  - intros x y X Y PX PY. apply (Sharp.sum_relative p emin P3); auto. lra.
+  - now apply (Sharp.normal_relative p emin P3).
+  - intros x P C. apply (Format.rnd_absolute p emin nearest _ _ E x P C).
   - intros m M. apply terms_squared in M. unfold factor, sharp_units.
     assert (Z.of_nat (m + 7) / 2 < 8)%Z by (apply Z.div_lt_upper_bound; lia).
     assert (0 <= Z.of_nat (m + 7) / 2)%Z by (apply Z.div_pos; lia).

@@ -12,7 +12,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core Mult_error.
 From Errbound Require Import Format.
-From Errbound Require Tight.
+From Errbound Require AbsoluteBound Tight.
 Open Scope R_scope.
 
 (** The inherited error for arguments with an error of at most e; x is not negative, since a >= e. *)
@@ -89,21 +89,16 @@ Lemma f_1 : 1 <= f.
 Proof. unfold f. generalize (eps_positive p). lra. Qed.
 Lemma q_8 : 7 / 8 <= q <= 1.
 Proof. unfold q. generalize (error_r _ _ _ _ _ E). lra. Qed.
-(** Without one factor q. *)
-Lemma less_q x : 0 <= x -> 1 <= f * (x * q) -> 1 <= f * x.
-Proof.
-  intros P H. generalize f_1 q_8. intros F Q. assert (0 <= f * x) by (apply Rmult_le_pos; lra). nra.
-Qed.
 Lemma f_q5 : 1 <= f * (q * q * q * q * q).
-Proof. apply less_q; [| exact f_q6]. generalize q_8. intros. repeat apply Rmult_le_pos; lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q6]. Qed.
 Lemma f_q4 : 1 <= f * (q * q * q * q).
-Proof. apply less_q, f_q5. generalize q_8. intros. repeat apply Rmult_le_pos; lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q5]. Qed.
 Lemma f_q3 : 1 <= f * (q * q * q).
-Proof. apply less_q, f_q4. generalize q_8. intros. repeat apply Rmult_le_pos; lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q4]. Qed.
 Lemma f_q2 : 1 <= f * (q * q).
-Proof. apply less_q, f_q3. generalize q_8. intros. repeat apply Rmult_le_pos; lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q3]. Qed.
 Lemma f_q1 : 1 <= f * q.
-Proof. apply less_q, f_q2. generalize q_8. lra. Qed.
+Proof. generalize f_1 q_8. intros. apply (fewer_roundings f q); [lra | lra | exact f_q2]. Qed.
 Lemma no_less x c : 0 <= x -> 1 <= c -> x <= x * c.
 Proof. intros X C. rewrite <- (Rmult_1_r x) at 1. apply Rmult_le_compat_l; lra. Qed.
 
@@ -207,7 +202,7 @@ Proof.
   assert (PR : 0 <= R) by apply rounding_nonnegative.
   assert (LR : (R + eta) * q <= R0) by apply rounding_of_lower.
   destruct (Req_bool_spec e 0) as [Z | Z].
-  { rewrite Z in L. apply Tight.within_0 in L. subst x. split; [lra |].
+  { rewrite Z in L. apply within_0 in L. subst x. split; [lra |].
     apply Rle_trans with (1 := HV). apply inflated_covers; [apply rounding_of_nonnegative | |].
     - apply Rle_trans with ((R + eta) * q * (f * q)); [| apply Rmult_le_compat_r; auto; lra].
       replace ((R + eta) * q * (f * q)) with ((R + eta) * (f * (q * q))) by ring. nra.
@@ -296,17 +291,15 @@ Proof.
   generalize (Rabs_pos a) (Rabs_pos b). intros Pa Pb.
   unfold fma_error. cbv zeta. rewrite (Format.rnd_exact p emin direction _ number_3_eta).
   set (v := fl (a * b + c)). set (R := rounding v). set (R0 := rounding_of v).
-  set (t := fl (Rabs b + sb)). set (P1 := fl (Rabs a * sb)). set (P2 := fl (sa * t)).
-  set (P := fl (P1 + P2)). set (C3 := fl (sc + 3 * eta)). set (S1 := fl (P + C3)). set (S := fl (R0 + S1)).
-  set (K := Rabs a * sb). set (T := sa * (Rabs b + sb)).
+  destruct (Format.product_left p emin direction q h ltac:(lra) (proj1 HH) (rnd_relative p emin direction r h E)
+    (fun x P C => proj1 (rnd_absolute x P C)) (Rabs a) sa (Rabs b) sb) as (PX & PP & LP & SP);
+    auto using number_abs, Rabs_pos. revert PX PP LP SP.
+  set (P := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb)))). set (K := Rabs a * sb). set (T := sa * (Rabs b + sb)).
+  intros PX PP LP SP. set (C3 := fl (sc + 3 * eta)). set (S1 := fl (P + C3)). set (S := fl (R0 + S1)).
   assert (PK : 0 <= K) by (apply Rmult_le_pos; lra).
   assert (PT : 0 <= T) by (apply Rmult_le_pos; lra).
   assert (PR : 0 <= R) by apply rounding_nonnegative.
   assert (PR0 : 0 <= R0) by apply rounding_of_nonnegative.
-  assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra).
-  assert (PP1 : 0 <= P1) by now apply rnd_nonnegative.
-  assert (PP2 : 0 <= P2) by (apply rnd_nonnegative, Rmult_le_pos; lra).
-  assert (PP : 0 <= P) by (apply rnd_nonnegative; lra).
   assert (PC3 : 0 <= C3) by (apply rnd_nonnegative; lra).
   assert (PS1 : 0 <= S1) by (apply rnd_nonnegative; lra).
   assert (PS : 0 <= S) by (apply rnd_nonnegative; lra).
@@ -316,69 +309,50 @@ Proof.
     apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; auto.
     apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
     - apply (Tight.rounding_any p emin direction p_3 emin_p r h E).
-    - now apply Tight.product_inherits. }
-  assert (Ht : T * q <= sa * t).
-  { unfold T. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto. apply sum_relative; auto. now apply number_abs. }
+    - now apply AbsoluteBound.product_inherits. }
   assert (HR0 : (R + eta) * q <= R0) by apply rounding_of_lower.
   apply inflated_covers; auto.
-  - generalize (rnd_lower K PK) (rnd_lower (sa * t) ltac:(apply Rmult_le_pos; lra)).
-    change (fl K) with P1. fold P2 q. intros D1 D2.
-    assert (D3 : (P1 + P2) * q <= P) by (apply sum_relative; auto; apply rnd_number).
-    assert (D4 : (sc + 3 * eta) * q <= C3) by (apply sum_relative; auto using number_3_eta; lra).
+  - assert (D4 : (sc + 3 * eta) * q <= C3) by (apply sum_relative; auto using number_3_eta; lra).
     assert (D5 : (P + C3) * q <= S1) by (apply sum_relative; auto; apply rnd_number).
     assert (D6 : (R0 + S1) * q <= S) by (apply sum_relative; auto; apply rnd_number).
-    assert (Q2 : 0 <= q * q) by apply Rle_0_sqr. assert (Q3 : 0 <= q * q * q) by (apply Rmult_le_pos; lra).
-    assert (G1 : (K * q + T * q * q - 2 * h) * q <= P).
-    { apply Rle_trans with (2 := D3). apply Rmult_le_compat_r; [lra |].
-      assert (T * q * q <= sa * t * q) by (apply Rmult_le_compat_r; lra). lra. }
-    assert (G2 : (K * q + T * q * q - 2 * h + sc + 3 * eta) * (q * q) <= S1).
+    set (X := (K + T) * (q * q) - 2 * h) in *.
+    assert (G2 : (X + sc + 3 * eta) * (q * q) <= S1).
     { apply Rle_trans with (2 := D5).
-      replace ((K * q + T * q * q - 2 * h + sc + 3 * eta) * (q * q))
-        with (((K * q + T * q * q - 2 * h) * q + (sc + 3 * eta) * q) * q) by ring.
+      replace ((X + sc + 3 * eta) * (q * q)) with ((X * q + (sc + 3 * eta) * q) * q) by ring.
       apply Rmult_le_compat_r; lra. }
-    assert (G3 : (R + eta + (K * q + T * q * q - 2 * h + sc + 3 * eta) * q) * (q * q) <= S).
+    assert (G3 : (R + eta + (X + sc + 3 * eta) * q) * (q * q) <= S).
     { apply Rle_trans with (2 := D6).
-      replace ((R + eta + (K * q + T * q * q - 2 * h + sc + 3 * eta) * q) * (q * q))
-        with (((R + eta) * q + (K * q + T * q * q - 2 * h + sc + 3 * eta) * (q * q)) * q) by ring.
+      replace ((R + eta + (X + sc + 3 * eta) * q) * (q * q))
+        with (((R + eta) * q + (X + sc + 3 * eta) * (q * q)) * q) by ring.
       apply Rmult_le_compat_r; lra. }
-    apply Rle_trans with ((R + eta + (K * q + T * q * q - 2 * h + sc + 3 * eta) * q) * (q * q) * (f * q)).
-    + replace ((R + eta + (K * q + T * q * q - 2 * h + sc + 3 * eta) * q) * (q * q) * (f * q))
-        with (R * (f * (q * q * q)) + K * (f * (q * q * q * q * q)) + T * (f * (q * q * q * q * q * q))
-              + sc * (f * (q * q * q * q)) + eta * (f * (q * q * q)) + (3 * eta - 2 * h) * (f * (q * q * q * q)))
-        by ring.
-      assert (0 <= (3 * eta - 2 * h) * (f * (q * q * q * q))) by (apply Rmult_le_pos; lra).
-      assert (R <= R * (f * (q * q * q))) by (apply no_less; [lra | apply f_q3]). assert (K <= K * (f * (q * q * q * q * q))) by (apply no_less; [lra | apply f_q5]).
-      assert (T <= T * (f * (q * q * q * q * q * q))) by (apply no_less; [lra | apply f_q6]).
-      assert (sc <= sc * (f * (q * q * q * q))) by (apply no_less; [lra | apply f_q4]).
-      assert (eta <= eta * (f * (q * q * q))) by (apply no_less; [lra | apply f_q3]). lra.
+    apply Rle_trans with ((R + eta + (X + sc + 3 * eta) * q) * (q * q) * (f * q)).
+    + replace ((R + eta + (X + sc + 3 * eta) * q) * (q * q) * (f * q))
+        with ((R + eta) * (f * (q * q * q)) + (K + T) * (f * (q * q * q * q * q * q))
+              + (sc + (3 * eta - 2 * h)) * (f * (q * q * q * q))) by (unfold X; ring).
+      assert (R + eta <= (R + eta) * (f * (q * q * q))) by (apply no_less; lra).
+      assert (K + T <= (K + T) * (f * (q * q * q * q * q * q))) by (apply no_less; lra).
+      assert (sc + (3 * eta - 2 * h) <= (sc + (3 * eta - 2 * h)) * (f * (q * q * q * q))) by (apply no_less; lra). lra.
     + apply Rmult_le_compat_r; auto. lra.
   - intros C.
     assert (L1 : S1 <= S) by (apply rnd_above; [apply rnd_number | lra]).
     assert (L2 : R0 <= S) by (apply rnd_above; [apply rnd_number | lra]).
     assert (L3 : P <= S1) by (apply rnd_above; [apply rnd_number | lra]).
     assert (L4 : C3 <= S1) by (apply rnd_above; [apply rnd_number | lra]).
-    assert (L5 : P1 <= P) by (apply rnd_above; [apply rnd_number | lra]).
-    assert (L6 : P2 <= P) by (apply rnd_above; [apply rnd_number | lra]).
     assert (E1 : S = R0 + S1) by (apply sum_subnormal; auto; apply rnd_number).
     assert (E2 : S1 = P + C3).
     { apply sum_subnormal; auto; try apply rnd_number. fold S1. lra. }
     assert (E3 : R0 = R + eta).
     { apply sum_subnormal; auto using number_eta; try lra; [apply rnd_number |].
       change (R0 < smallest_normal). lra. }
-    assert (E4 : P = P1 + P2).
-    { apply sum_subnormal; auto; try apply rnd_number. fold P. lra. }
     assert (E5 : C3 = sc + 3 * eta).
     { apply sum_subnormal; auto using number_3_eta; try lra. fold C3. lra. }
-    assert (D1 : K - h <= P1).
-    { apply rnd_absolute; auto. apply rnd_subnormal. change (fl K) with P1. lra. }
-    assert (D2 : sa * t - h <= P2).
-    { apply rnd_absolute; [apply Rmult_le_pos; lra |]. apply rnd_subnormal. fold P2. lra. }
-    apply Rle_trans with ((R + eta + (K - h + (T * q - h) + (sc + 3 * eta))) * f);
-      [| rewrite E1, E2, E3, E4, E5; apply Rmult_le_compat_r; lra].
-    replace ((R + eta + (K - h + (T * q - h) + (sc + 3 * eta))) * f)
+    destruct (SP ltac:(lra)) as (w & W & Kw).
+    apply Rle_trans with ((R + eta + (K + T * q - 2 * h + (sc + 3 * eta))) * f);
+      [| rewrite E1, E2, E3, E5; apply Rmult_le_compat_r; lra].
+    replace ((R + eta + (K + T * q - 2 * h + (sc + 3 * eta))) * f)
       with (R * f + K * f + T * (f * q) + sc * f + (4 * eta - 2 * h) * f) by ring.
     assert (R <= R * f) by (apply no_less; lra). assert (K <= K * f) by (apply no_less; lra).
-    assert (T <= T * (f * q)) by (apply no_less; [lra | apply f_q1]).
+    assert (T <= T * (f * q)) by (apply no_less; lra).
     assert (sc <= sc * f) by (apply no_less; lra).
     assert (4 * eta - 2 * h <= (4 * eta - 2 * h) * f) by (apply no_less; lra). lra.
 Qed.

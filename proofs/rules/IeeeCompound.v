@@ -193,7 +193,7 @@ Proof.
   assert (At : forall c, finite c -> equal _ F k (integer _ F 0) && equal _ F (fst z) c = true -> t = B2R c).
   { intros c FC C. apply andb_prop in C. destruct C as [C1 C2]. apply (equal_true p emax) in C1, C2; auto.
     destruct C1 as [FK EK], C2 as [_ EC]. destruct (proj2 LZ FK) as [_ D]. rewrite EK, ZV in D.
-    apply Tight.within_0 in D. congruence. }
+    apply Format.within_0 in D. congruence. }
   destruct (_ && _) eqn:C0.
   { rewrite (At _ Z0 C0), ZV. replace ((1 - 0) * r + 0 * s) with r by ring. exact KX. }
   clear C0. destruct (_ && _) eqn:C1.
@@ -290,7 +290,8 @@ Proof.
     + rewrite <- (Format.rnd_exact p emin Format.nearest (fl (B2R e + B2R g))) by now apply Format.rnd_number, valid_rnd_N.
       rewrite <- (Rplus_0_r (fl (B2R e + B2R g))).
       apply (Tight.inflated_sum_left p emin Format.nearest p_3 (emin_p p emax p_3) _ _
-        (Format.rounding_error_nearest p emin ltac:(lia)) (Tight.nearest_q6 p p_3)); auto using number_B2R; try lra.
+        (Format.rounding_error_nearest p emin ltac:(lia)) (Tight.nearest_q6 p p_3)
+        (Tight.nearest_h p emin p_3)); auto using number_B2R; try lra.
       apply Format.number_0.
   - assert (EX := Exponent larger FL ltac:(rewrite EL; exact M)). rewrite EL in EX.
     rewrite (Rabs_pos_eq (Rmax _ _)) in EX by (apply Rle_trans with (2 := Rmax_l _ _); apply Rabs_pos).

@@ -7,7 +7,7 @@
 From Coq Require Import Reals ZArith Lia Lra Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code CompoundCode Ieee IeeeRules DotProduct.
-From Errbound Require Format Tight Sharp.
+From Errbound Require Format AbsoluteBound Sharp.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -205,7 +205,7 @@ Proof.
     destruct (A FA FB H) as (G1 & G2 & FSA & FSB & E). split; [split; [exact Fb | exact G1] |].
     cbn [plus times reals]. split.
     + assert (C1 : Code.is_zero R rounded (B2R a) (B2R sa) || Code.is_zero R rounded (B2R b) (B2R sb) = false).
-      { change (Tight.is_zero (B2R a) (B2R sa) || Tight.is_zero (B2R b) (B2R sb) = false).
+      { change (AbsoluteBound.is_zero (B2R a) (B2R sa) || AbsoluteBound.is_zero (B2R b) (B2R sb) = false).
         rewrite <- !(is_zero_value p emax p_3) by auto. exact C0. }
       rewrite C1, E, own_value by auto. fold sum in ES. fold product in EP. now rewrite ES, EP.
     + split; [apply number_B2R |]. split; [apply number_B2R |]. right. right.

@@ -193,7 +193,7 @@ Proof.
     apply (IeeeInterval.product_known p emax p_3 fused) in D1. destruct D1 as (_ & _ & _ & _ & D1 & _).
     apply (equal_true p emax) in D2, D3; auto. rewrite Z in D2. destruct D2 as [_ D2], D3 as [_ D3].
     rewrite IeeeInterval.product_value in D3. rewrite D2, D3, Rplus_0_r in D1.
-    rewrite E0 in HX. apply Tight.within_0 in HX. rewrite <- HX.
+    rewrite E0 in HX. apply Format.within_0 in HX. rewrite <- HX.
     replace (sqrt (B2R a)) with (B2R v).
     + apply (promise_exact _ _ _ Rule).
     + rewrite D1. change (B2R v * B2R v) with (Rsqr (B2R v)). symmetry. apply sqrt_Rsqr. rewrite EV.

@@ -13,7 +13,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN Sterbenz.
 From Errbound Require Import Code Ieee IeeeRules.
-From Errbound Require Format Interval ErrorFree Tight.
+From Errbound Require Format Interval ErrorFree.
 Open Scope R_scope.
 
 Section Rules.
@@ -277,7 +277,7 @@ Proof.
   intros K. unfold interval_within. destruct zero_value' as [Z0 Z].
   destruct (equal _ F error (integer _ F 0)) eqn:C.
   { apply equal_true in C; auto. destruct C as [FE C]. rewrite Z in C. specialize (K FE ltac:(lra)). rewrite C in K.
-    apply Tight.within_0 in K. rewrite <- K. apply interval_exact_known. }
+    apply Format.within_0 in K. rewrite <- K. apply interval_exact_known. }
   destruct (less _ F (integer _ F 0) error) eqn:P; cbn [negb]; [| now left].
   apply checked_known. intros _ L U' _.
   apply below_finite in L as L'. destruct L' as [L' _]. apply minus_finite in L'. destruct L' as (_ & FE & EL).

@@ -15,7 +15,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code CompoundCode RelativeCode Ieee IeeeRules IeeeFunctions IeeeCompound DotProduct.
-From Errbound Require Format ErrorFree Upper Tight IeeeInterval Relative.
+From Errbound Require Format ErrorFree Upper IeeeInterval Relative.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -631,7 +631,7 @@ Proof.
   intros K. destruct (zero_value p emax p_3) as [Z0 Z]. unfold RelativeCode.relative_within.
   destruct (equal _ F error (integer _ F 0)) eqn:E.
   { apply (equal_true p emax) in E; auto. destruct E as [FE E]. rewrite Z in E.
-    specialize (K FE ltac:(lra)). rewrite E in K. apply Tight.within_0 in K. rewrite <- K. apply relative_exact_known. }
+    specialize (K FE ltac:(lra)). rewrite E in K. apply Format.within_0 in K. rewrite <- K. apply relative_exact_known. }
   destruct (less _ F (integer _ F 0) error) eqn:L; cbn [negb orb]; [| apply unknown_known].
   destruct (is_finite _ F v) eqn:FV; cbn [negb]; [| apply unknown_known].
   apply (IeeeInterval.is_finite_true p emax) in FV. assert (FA := abs_finite_intro p emax v FV).

@@ -14,7 +14,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code Ieee.
-From Errbound Require Format Tight Sharp Upper.
+From Errbound Require Format AbsoluteBound Tight Sharp Upper.
 Open Scope R_scope.
 
 Section Rules.
@@ -56,15 +56,15 @@ Proof.
   rewrite Z in *. tauto.
 Qed.
 Lemma is_zero_value a s : finite a -> finite s ->
-  is_zero _ F a s = Tight.is_zero (B2R a) (B2R s).
+  is_zero _ F a s = AbsoluteBound.is_zero (B2R a) (B2R s).
 Proof.
-  destruct (zero_value p emax p_3) as [Z0 Z]. intros A S. unfold is_zero, Tight.is_zero.
+  destruct (zero_value p emax p_3) as [Z0 Z]. intros A S. unfold is_zero, AbsoluteBound.is_zero.
   now rewrite !equal_finite, Z.
 Qed.
 Lemma known_zero a s x : known a s x -> is_zero _ F a s = true -> x = 0.
 Proof.
   intros (_ & K) H. apply is_zero_true in H. destruct H as (_ & FS & A & S).
-  destruct (K FS) as [_ B]. rewrite A, S in B. apply Tight.within_0 in B. lra.
+  destruct (K FS) as [_ B]. rewrite A, S in B. apply Format.within_0 in B. lra.
 Qed.
 
 (** The rules' definitions over the real numbers are what Code.v computes. *)
@@ -268,7 +268,8 @@ Qed.
 Ltac product_known sound :=
   intros KA KB; generalize KA KB; intros [PA LA] [PB LB];
   match goal with |- known _ (if is_zero _ F ?a ?sa || is_zero _ F ?b ?sb then _ else _) (?x * ?y) =>
-    generalize (sound (B2R a) x (B2R sa) (B2R b) y (B2R sb)); unfold Tight.tight_multiply, Sharp.sharp_multiply;
+    generalize (sound (B2R a) x (B2R sa) (B2R b) y (B2R sb));
+    unfold Tight.tight_multiply, Sharp.sharp_multiply, AbsoluteBound.multiply, AbsoluteBound.total;
     case_eq (is_zero _ F a sa || is_zero _ F b sb)
   end; intros Zero T; cbv zeta in *; split;
   [ positive_bound
@@ -325,7 +326,8 @@ Ltac quotient_known sound :=
   intros KA KB; generalize KA KB; intros [PA LA] [PB LB]; cbv zeta;
   match goal with
   | _ : known ?a ?sa ?x, _ : known ?b ?sb ?y |- known (?a ⊘ ?b) (if negb ?far then _ else _) (?x / ?y) /\ _ =>
-    generalize (sound (B2R a) x (B2R sa) (B2R b) y (B2R sb)); unfold Tight.tight_divide, Sharp.sharp_divide;
+    generalize (sound (B2R a) x (B2R sa) (B2R b) y (B2R sb)); unfold Tight.tight_divide, Sharp.sharp_divide,
+      AbsoluteBound.divide, AbsoluteBound.numerator, AbsoluteBound.total;
     case_eq far
   end; intros Far T; cbn [negb]; [| split; [split; [reflexivity |] |]; discriminate];
   generalize (distance_positive _ _ _ KB Far); intros (FB & FS & FD & D & NB & NY); split; [| auto];

@@ -11,7 +11,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code Ieee IeeeRules.
-From Errbound Require Format Safe Tight.
+From Errbound Require Format Safe.
 Open Scope R_scope.
 
 Section Rules.
@@ -96,7 +96,7 @@ Proof.
   intros K. unfold safe_within. destruct (zero_value p emax p_3) as [Z0 Z].
   destruct (equal _ F error (integer _ F 0)) eqn:C0.
   { apply equal_true in C0; auto. destruct C0 as [FE C0]. rewrite Z in C0.
-    specialize (K FE ltac:(lra)). rewrite C0 in K. apply Tight.within_0 in K. rewrite <- K. apply safe_exact_known. }
+    specialize (K FE ltac:(lra)). rewrite C0 in K. apply Format.within_0 in K. rewrite <- K. apply safe_exact_known. }
   destruct (less _ F (integer _ F 0) error) eqn:C1; cbn [negb].
   2: { unfold safe_known. split; [reflexivity |]. split; [unfold too_many; lia |].
     intros _ _. split; [discriminate | discriminate]. }
@@ -166,7 +166,7 @@ Proof.
   destruct C0 as [FA A]. split; auto. split; auto. apply Z.eqb_eq in C. subst k.
   destruct (K FA eq_refl) as [E H]. specialize (E eq_refl). destruct E as [FB E].
   destruct (H FB) as (_ & _ & _ & D). cbn [fst snd] in D. rewrite E, A, Rabs_R0, Rmult_0_l in D.
-  apply Tight.within_0 in D. auto.
+  apply Format.within_0 in D. auto.
 Qed.
 
 Theorem safe_multiply_known a A x b B y : safe_known a A x -> safe_known b B y ->

@@ -24,13 +24,6 @@ Section Numbered.
 
 Context (T : Type) (A : arithmetic T) (has_fast_fma : bool) (B : Type) (by_rule : nat -> operations T B).
 
-Declare Scope code.
-Infix "+" := (plus T A) : code.
-Notation "- x" := (opposite T A x) : code.
-Infix "*" := (times T A) : code.
-Infix "<" := (less T A) : code.
-Infix "==" := (equal T A) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
 Notation is_finite := (is_finite T A).
 Open Scope code.
 

@@ -10,13 +10,6 @@ Section Counts.
 
 Context (D : Type) (A : arithmetic D).
 
-Declare Scope code.
-Infix "+" := (plus D A) : code.
-Infix "-" := (minus D A) : code.
-Infix "*" := (times D A) : code.
-Infix "/" := (over D A) : code.
-Infix "<" := (less D A) : code.
-Notation "# n" := (integer D A n%Z) (at level 1, n at level 0, format "# n") : code.
 Open Scope code.
 
 (** At least the successor of x >= 0, or x itself if that is subnormal. *)
@@ -38,22 +31,9 @@ Section Relative.
 Context (T D : Type) (A : arithmetic T) (C : arithmetic D) (to_count : T -> D) (from_count : D -> T)
   (has_fast_fma : bool).
 
-Declare Scope code.
-Infix "+" := (plus T A) : code.
-Infix "-" := (minus T A) : code.
-Infix "*" := (times T A) : code.
-Infix "/" := (over T A) : code.
-Notation "- x" := (opposite T A x) : code.
-Infix "<" := (less T A) : code.
-Infix "<=" := (at_most T A) : code.
-Infix "==" := (equal T A) (at level 70) : code.
-Infix "<#" := (less D C) (at level 70) : code.
-Infix "==#" := (equal D C) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
 Notation count n := (integer D C n%Z).
 Notation ε := (epsilon T A).
 Notation η := (underflow_unit T A).
-Notation "∞" := (infinity T A).
 Notation abs := (abs T A).
 Notation is_finite := (is_finite T A).
 Notation upper := (upper T A).
@@ -69,29 +49,29 @@ Definition factors_of (error size : T) : D :=
     let share := upper (error / size) + η in
     if negb (share < #1) then unknown
     else
-      let r := plus D C (RelativeCode.upper D C (to_count share)) (underflow_unit D C) in
-      if negb (r <# count 1) then unknown else count_of_share D C u_of_counts r.
+      let r := RelativeCode.upper D C (to_count share) + underflow_unit D C in
+      if negb (r < count 1) then unknown else count_of_share D C u_of_counts r.
 Definition relative_exact (value : T) : D := if is_finite value then count 0 else unknown.
 Definition relative_within (value error : T) : D :=
   if error == #0 then relative_exact value
   else if negb (#0 < error) || negb (is_finite value) then unknown
   else factors_of error (abs value).
 Definition relative_error (value : T) (k : D) : T :=
-  if k ==# count 0 then #0
+  if k == count 0 then #0
   else
     let l := length_of_count D C u_of_counts k in
-    if negb (l <# over D C (count 7) (count 4)) then ∞
+    if negb (l < count 7 / count 4) then ∞
     else
       let r := share_of_length D C l in
       let share := from_count r in
-      let enough := if to_count share <# r then upper share + η else share in
+      let enough := if to_count share < r then upper share + η else share in
       upper (abs value * enough) + η.
 Definition relative_sign (value : T) (k : D) : sign_type :=
   if negb (is_finite (relative_error value k)) then uncertain
   else if value == #0 then zero
   else if #0 < value then positive else negative.
 
-Definition is_exact_zero (a : T) (k : D) : bool := (a == #0) && (k ==# count 0).
+Definition is_exact_zero (a : T) (k : D) : bool := (a == #0) && (k == count 0).
 Definition rounded_to (v : T) (k : D) (is_exact : bool) : D :=
   if negb (is_finite v) then unknown
   else if is_exact then k
@@ -100,8 +80,8 @@ Definition rounded_sum (v : T) (k : D) (is_exact : bool) : D :=
   if negb (is_finite v) then unknown else if is_exact then k else count_sum k (count 1).
 Definition relative_add (v a : T) (ka : D) (b : T) (kb : D) : D :=
   let is_exact := snd (two_sum T A a b) == #0 in
-  let k := if ka <# kb then kb else ka in
-  if (k ==# count 0) || ((#0 <= a) && (#0 <= b)) || ((a <= #0) && (b <= #0)) then rounded_sum v k is_exact
+  let k := if ka < kb then kb else ka in
+  if (k == count 0) || ((#0 <= a) && (#0 <= b)) || ((a <= #0) && (b <= #0)) then rounded_sum v k is_exact
   else
     let off := upper (relative_error a ka + relative_error b kb) in
     let size := abs v in
@@ -116,7 +96,7 @@ Definition relative_multiply (v a : T) (ka : D) (b : T) (kb : D) : D :=
     let is_exact := product_error_is_exact T A has_fast_fma a b product && (snd product == #0) in
     rounded_to v (count_sum ka kb) is_exact.
 Definition relative_divide (v a : T) (ka : D) (b : T) (kb : D) : D :=
-  if (b == #0) || negb (kb <# unknown) then unknown
+  if (b == #0) || negb (kb < unknown) then unknown
   else if is_exact_zero a ka then relative_exact v
   else
     let (remainder, known) := remainder_of_division T A has_fast_fma a b v in
@@ -153,6 +133,6 @@ Definition relative_dot_step (s : T * T * D) (pair : (T * D) * (T * D)) : T * T 
 Definition relative_dot (pairs : list ((T * D) * (T * D))) : T * D :=
   let '(sum, off, counted) := fold_left relative_dot_step pairs (#0, #0, count 0) in
   let by_size := relative_within sum off in
-  (sum, if by_size <# counted then by_size else counted).
+  (sum, if by_size < counted then by_size else counted).
 
 End Relative.

@@ -96,12 +96,7 @@ Proof.
 Qed.
 Lemma rounding_sum x y : number x -> number y ->
   Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
-Proof.
-  intros X Y. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [S | S].
-  - rewrite (sum_exact_below p emin nearest) by auto. replace (x + y - (x + y)) with 0 by ring.
-    rewrite Rabs_R0. apply Rmult_le_pos; [generalize u_8; lra | apply Rabs_pos].
-  - exact (nearest_relative_to_result p emin _ S).
-Qed.
+Proof. now apply sum_relative_to_result. Qed.
 Lemma sum_lower x y : number x -> number y -> 0 <= x -> 0 <= y -> x + y <= fl (x + y) * (1 + u).
 Proof.
   intros X Y PX PY. generalize (rounding_sum x y X Y).
@@ -138,16 +133,10 @@ Proof.
   - apply Rmult_le_compat_r; lra.
   - lra.
 Qed.
-Lemma number_factor : number (1 + bpow radix2 (4 - p)).
-Proof. apply number_1_power; auto; lia. Qed.
 Lemma inflated_exact x : inflated x = fl (x * (1 + 16 * u)).
 Proof.
-  unfold inflated. replace (8 * eps) with (bpow radix2 (4 - p)).
-  - rewrite (rnd_exact (bpow radix2 (4 - p))) by (apply number_power; auto; lia).
-    rewrite (rnd_exact _ number_factor). f_equal. f_equal. f_equal.
-    unfold Zminus, Format.u. now rewrite bpow_plus.
-  - rewrite eps_2u. replace (4 - p)%Z with (4 + - p)%Z by lia. rewrite bpow_plus.
-    change (bpow radix2 4) with 16. unfold Format.u. ring.
+  unfold inflated. do 2 f_equal. replace (16 * u) with (8 * eps) by (rewrite eps_2u; ring).
+  apply (rnd_factor p emin nearest 3); auto; lia.
 Qed.
 Lemma inflated_number x : number (inflated x).
 Proof. apply rnd_number. Qed.
@@ -360,8 +349,6 @@ Proof.
 Qed.
 Lemma inflated_losses e f : number e -> number f -> 0 <= e -> 0 <= f -> e + f <= inflated (fl (e + f)).
 Proof. intros. apply inflated_summed with 1%nat; [| lia]. apply (summed_plus 0 _ _ 0); now apply summed_number. Qed.
-Lemma inflated_nonnegative x : 0 <= x -> 0 <= inflated x.
-Proof. intros P. rewrite inflated_exact. apply rnd_nonnegative. generalize u_8. nra. Qed.
 Theorem residual_add_sound a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
   let bound := residual_add (fl (a + b)) a ca ra b cb rb in
   holds (fl (a + b)) (fst bound) (snd bound) (x + y).

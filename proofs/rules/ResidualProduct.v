@@ -282,14 +282,14 @@ Proof.
   intros EC HC CR. set (lost := fl (unknown + eta)).
   assert (Nl : number lost) by apply rnd_number. assert (Pl : 0 <= lost) by (apply rnd_nonnegative; lra).
   assert (Hl : unknown + eta <= lost * (1 + u)).
-  { apply (sum_lower p emin p_3); auto using number_eta. lra. }
+  { apply (sum_lower p emin); auto using number_eta. lra. }
   assert (Cl : covered 1 (- eta) unknown lost) by (repeat split; auto; rewrite pow_1; lra).
   set (N := Rabs c * (1 + u) + eta / 2).
   assert (PN : 0 <= N) by (unfold N; generalize (Rmult_le_pos _ (1 + u) (Rabs_pos c)); lra).
   assert (Cc : covered 2 0 (N + unknown) (fl (Rabs c + lost))).
   { assert (Nc : number (Rabs c)) by apply number_abs, rnd_number.
     split; [apply rnd_number |]. split; [apply rnd_nonnegative; generalize (Rabs_pos c); lra |].
-    generalize (sum_lower p emin p_3 _ _ Nc Nl (Rabs_pos c) Pl). intros S.
+    generalize (sum_lower p emin _ _ Nc Nl (Rabs_pos c) Pl). intros S.
     apply (Rmult_le_compat_r (1 + u)) in S; [| lra]. unfold N. simpl pow. lra. }
   generalize (plus _ _ _ _ _ _ _ _ (plus _ _ _ _ _ _ _ _
     (times _ _ _ _ _ _ Cc (covered_number off Noff Poff) ltac:(lra) Poff)

@@ -69,9 +69,7 @@ Let rnd_above := Format.rnd_above p emin direction.
 Let rnd_nonnegative := Format.rnd_nonnegative p emin direction.
 Let rnd_0 := Format.rnd_0 p emin direction.
 Let rnd_subnormal := Format.rnd_subnormal p emin direction.
-Let rnd_normal := Format.rnd_normal p emin direction.
 Let sum_subnormal := Format.sum_subnormal p emin direction.
-Let scaled_up := Format.scaled_up p emin direction.
 
 Lemma growth_0 : growth 0 = 1.
 Proof. reflexivity. Qed.
@@ -103,42 +101,24 @@ Let rnd_absolute := Format.rnd_absolute p emin direction r h E.
 Let rnd_lower := Format.rnd_lower p emin direction r h E.
 Let rnd_relative := Format.rnd_relative p emin direction r h E.
 Let sum_error := Format.sum_error p emin direction r h E.
-Let inflated_relative := Format.inflated_relative p emin direction r h E.
 
 Lemma g_1 : 1 <= g.
 Proof. unfold g. generalize (eps_positive p). lra. Qed.
 Lemma q_1 : 0 < q <= 1.
 Proof. unfold q. generalize (error_r _ _ _ _ _ E) (error_r_1 _ _ _ _ _ E). lra. Qed.
+Let scaled_covers := Format.scaled_covers p emin direction q q_1 rnd_relative.
 Lemma g_q2 : 1 <= g * (q * q).
 Proof. generalize g_1. intros. apply (fewer_roundings g q); [lra | apply q_1 | exact g_q3]. Qed.
 
-Lemma number_g : number g.
-Proof.
-  unfold g, Format.eps. replace (4 * bpow radix2 (1 - p)) with (bpow radix2 (3 - p)).
-  - apply number_1_power; auto; lia.
-  - replace (3 - p)%Z with (2 + (1 - p))%Z by lia. now rewrite bpow_plus.
-Qed.
 Lemma enlarged_exact x : enlarged x = fl (x * g).
-Proof.
-  unfold enlarged. rewrite (rnd_exact (4 * eps)).
-  - now rewrite (rnd_exact (1 + 4 * eps) number_g).
-  - replace (4 * eps) with (bpow radix2 (2 + (1 - p))).
-    + apply number_power; auto. lia.
-    + rewrite bpow_plus. reflexivity.
-Qed.
+Proof. unfold enlarged. do 2 f_equal. apply (rnd_factor p emin direction 2); auto; lia. Qed.
 
 (** An enlarged number is at least the number rounded to it, a normal product or any sum. *)
 Lemma enlarged_above w x :
   number w -> 0 <= x -> x * q <= w -> (w < smallest_normal -> x <= w) -> x <= enlarged w.
 Proof.
-  intros W P R S. rewrite enlarged_exact. generalize g_1 q_1 g_q2; intros.
-  destruct (Rlt_or_le w smallest_normal) as [C | C].
-  - apply Rle_trans with w; auto. apply scaled_up; auto. generalize (S C). lra.
-  - apply Rle_trans with (w * g * q); [| apply inflated_relative; auto].
-    apply Rle_trans with (x * q * (g * q)).
-    + replace (x * q * (g * q)) with (x * (g * (q * q))) by ring. nra.
-    + replace (w * g * q) with (w * (g * q)) by ring. apply Rmult_le_compat_r; auto.
-      apply Rmult_le_pos; lra.
+  intros. rewrite enlarged_exact. apply scaled_covers with q; auto using g_1, g_q2.
+  apply Rle_trans with (x * q); auto. apply Rmult_le_pos; auto. generalize q_1. lra.
 Qed.
 Lemma enlarged_sum x y :
   number x -> number y -> 0 <= x -> 0 <= y -> x + y <= enlarged (fl (x + y)).
@@ -233,21 +213,13 @@ Proof.
   generalize (Rabs_pos x) (Rabs_pos y); intros.
   unfold safe_multiply. destruct (is_zero a ka || is_zero b kb) eqn:Zero.
   { (* an exact zero *)
-    assert (Z0 : a * b = 0 /\ x * y = 0).
-    { unfold is_zero in Zero. apply orb_prop in Zero.
-      destruct Zero as [Zero | Zero]; apply andb_prop in Zero; destruct Zero as [Z1 Z2];
-        apply Z.eqb_eq in Z2; rewrite Z2, growth_0 in *.
-      - revert Z1. case Req_bool_spec; [| discriminate]. intros A0 _.
-        rewrite A0 in *. assert (Rabs (0 - x) <= 0) by lra.
-        assert (x = 0). { destruct (Req_dec x 0) as [| X0]; auto. exfalso.
-          assert (0 < Rabs (0 - x)) by (apply Rabs_pos_lt; lra). lra. }
-        subst x. lra.
-      - revert Z1. case Req_bool_spec; [| discriminate]. intros B0 _.
-        rewrite B0 in *. assert (Rabs (0 - y) <= 0) by lra.
-        assert (y = 0). { destruct (Req_dec y 0) as [| Y0]; auto. exfalso.
-          assert (0 < Rabs (0 - y)) by (apply Rabs_pos_lt; lra). lra. }
-        subst y. lra. }
-    destruct Z0 as [-> ->]. rewrite rnd_0. unfold known. simpl.
+    assert (Z0 : forall c z C k, is_zero c k = true -> Rabs (c - z) <= C * (growth k - 1) -> c = 0 /\ z = 0).
+    { intros c z C k Z D. apply andb_prop in Z. destruct Z as [Z1 Z2]. apply Z.eqb_eq in Z2.
+      rewrite Z2, growth_0, Rminus_eq_0, Rmult_0_r in D. apply within_0 in D. subst z. revert Z1.
+      now case Req_bool_spec. }
+    assert (Z1 : a * b = 0 /\ x * y = 0).
+    { apply orb_prop in Zero. destruct Zero as [Zero | Zero]; eapply Z0 in Zero; eauto; destruct Zero as [-> ->]; lra. }
+    destruct Z1 as [-> ->]. rewrite rnd_0. unfold known. simpl.
     rewrite Rminus_0_r, Rabs_R0. repeat split; try lia; try lra. apply number_0. }
   unfold known. cbn [fst snd]. rewrite (counted_below _ Few).
   set (B' := Rmax (enlarged (fl (Ba * Bb))) smallest_normal).
@@ -411,20 +383,11 @@ Proof.
     assert (PP : 0 <= P) by now apply rnd_nonnegative.
     assert (Nw : number w) by apply rnd_number.
     assert (PW : P <= w) by (apply rnd_above; auto; lra).
-    destruct (Rlt_or_le w smallest_normal) as [C | C].
-    + apply Rle_trans with w; [| apply scaled_up; auto; lra].
-      unfold w. rewrite sum_subnormal; auto using number_eta; try lra.
-      enough (B * y - h <= P) by lra. apply rnd_absolute; auto.
-      apply rnd_subnormal. fold P. lra.
-    + apply Rle_trans with (w * g * q); [| apply inflated_relative; auto].
-      generalize (rnd_lower (B * y) PBy). fold P q. intros D1.
-      generalize (sum_relative P eta NP (number_eta p emin) PP ltac:(lra)). fold w q. intros D2.
-      assert (D3 : B * y * (q * q) <= w).
-      { apply Rle_trans with (2 := D2). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
-      apply Rle_trans with (B * y * (q * q) * (g * q)).
-      * replace (B * y * (q * q) * (g * q)) with (B * y * (g * (q * q * q))) by ring. nra.
-      * replace (w * g * q) with (w * (g * q)) by ring. apply Rmult_le_compat_r; auto.
-        apply Rmult_le_pos; lra.
+    apply scaled_covers with (q * q); auto; try lra.
+    + apply Rle_trans with (2 := sum_relative P eta NP (number_eta p emin) PP ltac:(lra)). fold q.
+      rewrite <- Rmult_assoc. apply Rmult_le_compat_r; [lra |]. generalize (rnd_lower (B * y) PBy). fold P q. lra.
+    + intros C. unfold w. rewrite sum_subnormal; auto using number_eta; try lra.
+      enough (B * y - h <= P) by lra. apply rnd_absolute; auto. apply rnd_subnormal. fold P. lra.
   - (* such counts are refused *)
     assert (T : 2 <= fl (fl (IZR k) * eps)).
     { assert (N2 : forall e, (0 <= e)%Z -> number (bpow radix2 e)).

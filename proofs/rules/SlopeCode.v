@@ -10,12 +10,6 @@ Section Slopes.
 
 Context (T : Type) (A : arithmetic T) (has_fast_fma : bool).
 
-Declare Scope code.
-Infix "+" := (plus T A) : code.
-Infix "/" := (over T A) : code.
-Infix "<=" := (at_most T A) : code.
-Infix "==" := (equal T A) (at level 70) : code.
-Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
 Notation is_finite := (is_finite T A).
 Notation root := (root T A).
 Open Scope code.
