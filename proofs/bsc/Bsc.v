@@ -699,6 +699,7 @@ Proof.
   - apply (strict_beside_0 _ _ _ (proj1 (opposite_signs _ O)) (sign_right S (ddy y # 0)) K0).
   - apply (strict_beside_0 _ _ _ (proj2 (opposite_signs _ O)) (sign_right S (ddy y # 1)) K1).
 Qed.
+
 Lemma on_part_sound halvings : forall y gs, length y = 4%nat -> five gs -> sound (on_part y gs halvings)
   y gs.
 Proof.
