@@ -481,7 +481,7 @@ Proof.
   - intros E. destruct (Yes E) as (t & T & Z & P). exists t. rewrite H in Z. repeat split; auto; lra.
 Qed.
 
-(** What holds for each answer of on_whole_part holds for on_whole_part. *)
+(** A property of each of its answers is one of on_whole_part. *)
 Lemma on_whole_part_cases (Right : existence -> list S -> Prop) y gs curvature parts : length y = 4%nat ->
   signs_inside curvature (exacts (ddy y)) -> curvature <> zero ->
   ((forall t, 0 <= t <= 1 -> form_at y t = 0 -> excluded gs t) -> Right no y) ->
