@@ -39,6 +39,7 @@ class resting_sequence {
             add_sheet(mesh_, 12, 0, 0, random_);
             first_of_sheets_ = mesh_.vertices.size();
             add_sheet(mesh_, 4, 3, 0.5, random_);
+            second_small_sheet_ = mesh_.vertices.size();
             add_sheet(mesh_, 2, 3.5, 0.5, random_);
         } else {
             mesh_ = (seed % 4 == 0 ? random_mixture(seed) : random_soup(seed, 70, 50)).first;
@@ -79,11 +80,16 @@ class resting_sequence {
         for (std::size_t v = first_of_sheets_; v < after.size() && !one_in(200); ++v)
             after[v] = {after[v].x + drift_.x, after[v].y + drift_.y, after[v].z + drift_.z};
     }
-    /// Sets a step after the last one in which the small sheets go far away.
-    void leave() {
+    /// Sets a step in which the small sheets go far away and meet there, or come from there.
+    void leave(bool backwards) {
         const auto far = [&] { return std::ldexp(eighths(), static_cast<int>(random_() % 32)); };
         drift_ = {far(), far(), far()};
         drift();
+        // An axis x − y separates them here, but not far away.
+        for (std::size_t v = second_small_sheet_; v < before.size(); ++v)
+            (are_apart_ ? after : before)[v].x += are_apart_ ? -8 : 8;
+        are_apart_ = backwards;
+        if (backwards) std::swap(before, after);
         drift_ = {0, 0, 0};
     }
     ccd::step_options options() {
@@ -115,7 +121,8 @@ class resting_sequence {
 
     std::mt19937_64 random_;
     ccd::mesh mesh_;
-    std::size_t first_of_sheets_ = 0;
+    std::size_t first_of_sheets_ = 0, second_small_sheet_ = 0;
+    bool are_apart_ = false;  ///< the small sheets
     ccd::point<double> drift_{0, 0, 0};
     std::vector<std::uint8_t> pinned_;
     std::vector<std::vector<ccd::point<double>>> seen_;
@@ -166,8 +173,8 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhereSheetsLeaveTheRest) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         resting_sequence sequence(4 * seed + 3);
         ccd::mesh_steps kept(sequence.mesh());
-        for (int step = 0; step < 10; ++step) {
-            step == 3 ? sequence.leave() : sequence.drift();
+        for (int step = 0; step < 12; ++step) {
+            step % 3 == 2 ? sequence.leave(seed % 2 == 0) : sequence.drift();
             const ccd::vertex_rows way(sequence.before, sequence.after);
             ASSERT_EQ(kept.run(way, {.threads = 1}).pairs,
                       ccd::step(sequence.mesh().faces, {}, way, {.threads = 1}).pairs)
