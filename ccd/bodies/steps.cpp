@@ -148,10 +148,10 @@ class body_at_rest {
     vertex_index first_vertex() const { return first_vertex_; }
     const box<double>& extent() const { return extent_; }
 
-    /// Sets the trees, at the first call.
+    /// Sets the trees, at the first call. An exception leaves them unset.
     void prepare() {
-        element_sets& all = sets_;
-        if (!all.vertices.elements.empty()) return;
+        if (!sets_.vertices.elements.empty()) return;
+        element_sets all;
         all.edges.elements = unique_edges(rest_.faces, rest_.edges);
         all.rods.elements = detail::without(all.edges.elements, unique_edges(rest_.faces));
         all.faces.elements = unique_faces(rest_.faces);
@@ -175,6 +175,7 @@ class body_at_rest {
             order.sort<double>(set.elements, boxes);
             set.build(box_of);
         });
+        sets_ = std::move(all);
     }
 
     /// Returns the elements whose swept boxes touch the region, with trees of these boxes, and
