@@ -360,6 +360,20 @@ TEST(body_steps, report_a_needle_through_a_face_that_moves_with_it) {
     EXPECT_EQ(free.crossing_at_start, expected);
     EXPECT_EQ(free.fraction, 1);
 }
+TEST(body_steps, far_away_are_as_exact) {
+    const mesh needle{{{0.25, 0.25, -1}, {0.25, 0.25, 1}}, {}, {{0, 1}}},
+        triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}}, {{2, 1, 0}}};
+    body_steps steps({triangle, mesh{}, needle});
+    for (const double far : {0.0, 0x1p54, 0x1p900}) {
+        const affine_motion away{.p0 = {far, -far, far}, .p1 = {1, 2, 3}};
+        const motions together(3, away);
+        const auto found = steps.run(together, {.check_start = true});
+        EXPECT_EQ(found.crossing_at_start, (std::vector<ccd::edge_face_pair>{{{4, 5}, {0, 1, 2}}}));
+        // The vertex of no face rests at the needle's end.
+        EXPECT_EQ(found.touching_at_start.vertex_edge.size(), 1u);
+        EXPECT_EQ(number_of(found.pairs), 1u);
+    }
+}
 TEST(body_steps, that_rest_on_each_other_do_not_cross_at_the_start) {
     // A turned box stands on another; rounded positions would cross. Then it is lower by 2^-52.
     const quaternion q{3, 1, 4, 1};
