@@ -11,7 +11,6 @@
 #include <span>
 
 #include "ccd/batch/batch_kernels.hpp"
-#include "ccd/exact/finite.hpp"
 #include "ccd/exact/stages.hpp"
 
 namespace ccd::detail {
@@ -102,9 +101,8 @@ class batch_worker {
     template <class QueryAt>
     void decide_uncertain(std::size_t count, const QueryAt& query_at, outcome* answers) {
         for (std::size_t i = 0; i < count; ++i) {
-            if (answers[i] != outcome::uncertain) continue;
-            const auto query = query_at(i);
-            if (is_finite(query)) answers[i] = decide_with_integers(query, counts()).outcome;
+            if (answers[i] == outcome::uncertain)
+                answers[i] = decide_with_integers(query_at(i), counts()).outcome;
         }
     }
 

@@ -148,10 +148,10 @@ class body_at_rest {
     vertex_index first_vertex() const { return first_vertex_; }
     const box<double>& extent() const { return extent_; }
 
-    /// Sets the trees, at the first call.
+    /// Sets the trees, at the first call. An exception leaves them unset.
     void prepare() {
-        element_sets& all = sets_;
-        if (!all.vertices.elements.empty()) return;
+        if (!sets_.vertices.elements.empty()) return;
+        element_sets all;
         all.edges.elements = unique_edges(rest_.faces, rest_.edges);
         all.rods.elements = detail::without(all.edges.elements, unique_edges(rest_.faces));
         all.faces.elements = unique_faces(rest_.faces);
@@ -175,6 +175,7 @@ class body_at_rest {
             order.sort<double>(set.elements, boxes);
             set.build(box_of);
         });
+        sets_ = std::move(all);
     }
 
     /// Returns the elements whose swept boxes touch the region, with trees of these boxes, and
@@ -229,6 +230,7 @@ struct findings {
     by_kind<timed_pairs> pairs;
     pair_counts candidates;
     std::vector<edge_face_pair> crossings;  ///< at t = 0
+    std::size_t visited = 0;                ///< two elements whose boxes touch
 };
 
 /// Calls visit(i, j), i < j, for all boxes that touch. Cost: O(n log n + n m) for m boxes that
@@ -362,6 +364,7 @@ struct body_steps::state {
                 return found.local();
             },
             [&](findings& local, std::size_t i, std::size_t j, bool) {
+                if (++local.visited % 1024 == 0) detail::stop_if_requested(options.stop);
                 visit(local, numbered(of_a.elements[i], *a.body),
                       numbered(of_b.elements[j], *b.body));
             });
@@ -380,7 +383,7 @@ struct body_steps::state {
                 const auto points = detail::with_members(
                     pair, [&](auto... v) { return std::array{(a.has(v) ? a : b).point_of(v)...}; });
                 const first_time time = detail::first_within_of_bodies<K>(
-                    points, options.distance, options.t_max, detail::answer::time);
+                    points, options.distance, options.t_max, detail::answer::time, options.stop);
                 if (time.outcome != outcome::separate)
                     local.pairs.template of<K>().push_back({detail::canonical(pair), time});
             });

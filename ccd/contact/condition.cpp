@@ -15,6 +15,17 @@ using errbound::sign_type;
 using roots_in_time = errbound::real_roots<integer>;
 using staged_polynomial = errbound::roots::staged_polynomial<integer>;
 
+/// Limits under which calls that are stopped throw as stop_if_requested. Keeps a reference.
+errbound::root_limits limits_of(const stop_query& stop) {
+    errbound::root_limits limits;
+    if (stop)
+        limits.stop = [&stop] {
+            stop_if_requested(stop);
+            return false;
+        };
+    return limits;
+}
+
 std::vector<staged_polynomial> staged(const std::vector<time_polynomial>& polynomials) {
     std::vector<staged_polynomial> r;
     for (const auto& p : polynomials) r.emplace_back(p.coefficients());
@@ -68,13 +79,14 @@ bool holds_at_start(staged_condition& c) {
 }
 
 /// Returns polynomials, one of which has the condition's first time, if not 0, as a root.
-std::vector<staged_polynomial> candidates(staged_condition& c) {
+std::vector<staged_polynomial> candidates(staged_condition& c, const stop_query& stop) {
     if (c.vanishing.empty()) return {};
     const auto is_zero = [](const staged_polynomial& p) { return p.is_zero(); };
     if (std::all_of(c.vanishing.begin(), c.vanishing.end(), is_zero)) return c.sides().nonnegative;
     if (c.vanishing.size() == 1) return c.vanishing;
     errbound::roots::integer_form<integer> common;
-    for (auto& p : c.vanishing) common = errbound::roots::common_factor(common, p.exact());
+    errbound::roots::work_meter meter(limits_of(stop));
+    for (auto& p : c.vanishing) common = errbound::roots::common_factor(common, p.exact(), meter);
     return {staged_polynomial(std::move(common))};
 }
 
@@ -87,16 +99,19 @@ constexpr first_time never{outcome::separate, 0, 0};
 
 }  // namespace
 
-first_time first_time_of(const exact_conditions& conditions, double t_max) {
+first_time first_time_of(const exact_conditions& conditions, double t_max, const stop_query& stop) {
     std::vector<staged_condition> all(conditions.begin(), conditions.end());
-    for (staged_condition& c : all)
+    for (staged_condition& c : all) {
+        stop_if_requested(stop);
         if (holds_at_start(c)) return {outcome::collides, 0, 0};
+    }
     first_time first = never;
     double end = std::min(t_max, 1.0);
     for (staged_condition& c : all) {
-        for (staged_polynomial& p : candidates(c)) {
+        for (staged_polynomial& p : candidates(c, stop)) {
             if (p.is_zero()) continue;
-            roots_in_time roots(std::move(p), 0, end);
+            stop_if_requested(stop);
+            roots_in_time roots(std::move(p), 0, end, limits_of(stop));
             for (std::size_t k = 0; k < roots.size(); ++k) {
                 if (!sides_hold(c, [&](auto& side) { return roots.sign_at(side, k); })) continue;
                 // If another root lies in the same bracket, the order of the two is irrelevant.
@@ -112,8 +127,10 @@ first_time first_time_of(const exact_conditions& conditions, double t_max) {
     return first;
 }
 
-first_time first_time_at_roots(const time_polynomial& y, const root_test& test, double t_max) {
-    roots_in_time roots(staged_polynomial(y.coefficients()), 0, std::min(t_max, 1.0));
+first_time first_time_at_roots(const time_polynomial& y, const root_test& test, double t_max,
+                               const stop_query& stop) {
+    roots_in_time roots(staged_polynomial(y.coefficients()), 0, std::min(t_max, 1.0),
+                        limits_of(stop));
     exact_conditions conditions;
     std::vector<staged_condition> all;
     const auto holds_at = [&](std::size_t k) {
@@ -125,6 +142,7 @@ first_time first_time_at_roots(const time_polynomial& y, const root_test& test, 
             all = std::vector<staged_condition>(conditions.begin(), conditions.end());
         }
         return std::any_of(all.begin(), all.end(), [&](staged_condition& c) {
+            stop_if_requested(stop);
             return holds(c, [&](auto& p) { return roots.sign_at(p, k); });
         });
     };
@@ -133,8 +151,9 @@ first_time first_time_at_roots(const time_polynomial& y, const root_test& test, 
     return never;
 }
 
-first_time first_root_time(const time_polynomial& y, double low, double high) {
-    roots_in_time roots(staged_polynomial(y.coefficients()), low, high);
+first_time first_root_time(const time_polynomial& y, double low, double high,
+                           const stop_query& stop) {
+    roots_in_time roots(staged_polynomial(y.coefficients()), low, high, limits_of(stop));
     return at_root(roots, 0);
 }
 

@@ -11,6 +11,7 @@
 // condition holds too. Proof: proofs/times/FirstConditions.v, first_is_candidate, candidate_holds.
 #pragma once
 
+#include <ccd/execution.hpp>
 #include <ccd/methods/forms.hpp>
 #include <ccd/verdict.hpp>
 #include <errbound/tracked.hpp>
@@ -45,8 +46,9 @@ struct condition {
 using exact_conditions = std::vector<condition<time_polynomial>>;
 
 /// The first time in [0, min(t_max, 1)] at which a condition holds. Precondition: t_max >= 0.
-/// Proof: proofs/times/CandidateTimes.v, first_time_of_right, code_comparison.
-first_time first_time_of(const exact_conditions& conditions, double t_max);
+/// Polls `stop` during the search, as the functions below. Proof: proofs/times/CandidateTimes.v,
+/// first_time_of_right, code_comparison.
+first_time first_time_of(const exact_conditions& conditions, double t_max, const stop_query& stop);
 
 /// `holds_at`, if not empty, decides in floating point from an enclosure of a root of y; if it is
 /// uncertain, the `conditions` decide.
@@ -56,8 +58,10 @@ struct root_test {
 };
 /// Same as first_time_of, for conditions that hold at roots of y only. Precondition: y is not
 /// identically zero.
-first_time first_time_at_roots(const time_polynomial& y, const root_test& test, double t_max);
+first_time first_time_at_roots(const time_polynomial& y, const root_test& test, double t_max,
+                               const stop_query& stop);
 /// The first root of y in [low, high]. Precondition: there is one.
-first_time first_root_time(const time_polynomial& y, double low, double high);
+first_time first_root_time(const time_polynomial& y, double low, double high,
+                           const stop_query& stop);
 
 }  // namespace ccd::detail

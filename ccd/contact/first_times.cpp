@@ -78,7 +78,7 @@ class filter {
 /// Contact does not depend on units, so each axis has its own.
 template <kind K, class Motion>
 first_time first_contact(std::span<const Motion> points, double t_max, arithmetic by,
-                         const polynomial_source& y_source) {
+                         const polynomial_source& y_source, const stop_query& stop) {
     const bool filtered = by == arithmetic::floating_point_first;
     filter<K, Motion> bounds(points);
     if (filtered && (bounds.boxes_are_separate(0) ||
@@ -94,16 +94,16 @@ first_time first_contact(std::span<const Motion> points, double t_max, arithmeti
         if (!y.is_zero()) {
             root_test test{{}, [&] { return contact_conditions<K>(paths()); }};
             if (filtered) test.holds_at = [&](const auto& t) { return bounds.touches_at_root(t); };
-            return first_time_at_roots(y, test, t_max);
+            return first_time_at_roots(y, test, t_max, stop);
         }
     }
-    return first_time_of(contact_conditions<K>(paths()), t_max);
+    return first_time_of(contact_conditions<K>(paths()), t_max, stop);
 }
 
 /// Uses one unit for all axes and d.
 template <kind K, class Motion>
 first_time first_at_distance(std::span<const Motion> points, separation d, double t_max,
-                             arithmetic by) {
+                             arithmetic by, const stop_query& stop) {
     std::vector<bool> possible;
     if (by == arithmetic::floating_point_first) {
         filter<K, Motion> bounds(points);
@@ -129,26 +129,30 @@ first_time first_at_distance(std::span<const Motion> points, separation d, doubl
     std::size_t visited = 0;
     visit_distance_conditions<K>(exact.q, squared, [&](const auto& make) {
         const std::size_t i = visited++;
-        if (possible.empty() || possible[i]) conditions.push_back(make());
+        if (!possible.empty() && !possible[i]) return;
+        stop_if_requested(stop);
+        conditions.push_back(make());
+        time_polynomial& z = conditions.back().vanishing[0];
+        z = exact.without_weights(std::move(z));
     });
-    return first_time_of(conditions, t_max);
+    return first_time_of(conditions, t_max, stop);
 }
 
 }  // namespace
 
 template <kind K, class Motion>
 first_time first_of_valid(std::span<const Motion> points, separation d, double t_max, arithmetic by,
-                          const polynomial_source& y) {
+                          const polynomial_source& y, const stop_query& stop) {
     if (t_max < 0) return never;
-    return d.first == 0 && d.second == 0 ? first_contact<K>(points, t_max, by, y)
-                                         : first_at_distance<K>(points, d, t_max, by);
+    return d.first == 0 && d.second == 0 ? first_contact<K>(points, t_max, by, y, stop)
+                                         : first_at_distance<K>(points, d, t_max, by, stop);
 }
 
 template <kind K, class Motion>
 first_time first_within_of(std::span<const Motion> points, separation d, double t_max,
                            arithmetic by) {
     if (!is_distance(d) || !std::isfinite(t_max) || !are_valid(points)) return {};
-    return first_of_valid<K>(points, d, t_max, by, {});
+    return first_of_valid<K>(points, d, t_max, by, {}, {});
 }
 
 // For linear queries in integers, and for bodies.
@@ -161,14 +165,18 @@ template first_time first_within_of<kind::vertex_edge>(std::span<const curve>, s
 template first_time first_within_of<kind::vertex_vertex>(std::span<const curve>, separation, double,
                                                          arithmetic);
 template first_time first_of_valid<kind::vertex_face>(std::span<const body_point>, separation,
-                                                      double, arithmetic, const polynomial_source&);
+                                                      double, arithmetic, const polynomial_source&,
+                                                      const stop_query&);
 template first_time first_of_valid<kind::edge_edge>(std::span<const body_point>, separation, double,
-                                                    arithmetic, const polynomial_source&);
+                                                    arithmetic, const polynomial_source&,
+                                                    const stop_query&);
 template first_time first_of_valid<kind::vertex_edge>(std::span<const body_point>, separation,
-                                                      double, arithmetic, const polynomial_source&);
+                                                      double, arithmetic, const polynomial_source&,
+                                                      const stop_query&);
 template first_time first_of_valid<kind::vertex_vertex>(std::span<const body_point>, separation,
                                                         double, arithmetic,
-                                                        const polynomial_source&);
+                                                        const polynomial_source&,
+                                                        const stop_query&);
 
 template <curve_query Query>
 first_time first_within(const Query& query, separation d, double t_max, answer) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <ccd/curves.hpp>
+#include <ccd/execution.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/query.hpp>
@@ -37,10 +38,11 @@ first_time first_within_of(std::span<const Motion> points, separation d, double 
 /// Computes a polynomial with the roots of Y in [0, 1] and their multiplicities.
 using polynomial_source = std::function<time_polynomial()>;
 
-/// Same, for valid points and distances. Calls y(), if not empty, if Y is needed.
+/// Same, for valid points and distances. Calls y(), if not empty, if Y is needed. Polls `stop`
+/// during exact computations.
 template <kind K, class Motion>
 first_time first_of_valid(std::span<const Motion> points, separation d, double t_max, arithmetic by,
-                          const polynomial_source& y);
+                          const polynomial_source& y, const stop_query& stop);
 
 /// The sum of two distances, not rounded down.
 inline double rounded_up_sum(separation d) {

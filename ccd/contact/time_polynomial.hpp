@@ -39,6 +39,19 @@ class time_polynomial {
     bool is_zero() const { return c_.empty(); }
     const form& coefficients() const { return c_; }
 
+    /// A positive multiple of the quotient by the largest power of p that divides this. Returns
+    /// this if p is constant.
+    time_polynomial without_factor(const time_polynomial& p) const {
+        if (p.c_.size() < 2) return *this;
+        form factor = p.c_, quotient = c_;
+        errbound::roots::make_primitive(factor);
+        for (form next = quotient; !next.empty();) {
+            quotient = std::move(next);
+            next = errbound::roots::divided(quotient, factor);
+        }
+        return time_polynomial(std::move(quotient));
+    }
+
     friend time_polynomial operator+(const time_polynomial& p, const time_polynomial& q) {
         return combined(p, q, [](integer& a, const integer& b) { a += b; });
     }

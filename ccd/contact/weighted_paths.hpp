@@ -49,6 +49,13 @@ class weighted_paths {
         return x;
     }
 
+    /// x divided by both weights as often as possible. Its sign at t in [0, 1] stays the same.
+    element without_weights(element x) const {
+        for (const auto& w : weights_)
+            if (w) x = x.without_factor(*w);
+        return x;
+    }
+
     static constexpr std::size_t first = kind_traits<K>::first_vertices;
     static constexpr std::size_t count = first + kind_traits<K>::second_vertices;
     std::array<homogeneous_point<Ring>, count> own;  ///< a body's points with their own weights

@@ -33,6 +33,7 @@ struct stopped : std::runtime_error {
 ///
 /// Batches poll every few thousand queries; with distances, for each first time. Steps poll for
 /// each block of candidates and during the search, but not while they sort elements and pairs.
+/// Steps of bodies also poll during the exact computations of each pair.
 using stop_query = std::function<bool()>;
 
 namespace detail {

@@ -3,9 +3,7 @@
         halving_error_enough   `halving_error` covers the error of 12 halvings
         filter_face_separate, filter_face_collides, filter_edges_separate, filter_edges_collide
                                answers of the stages are right
-        filter_bounded         if the filter is usable, no number of a form exceeds 2^900, far from overflow; after
-            an
-                               overflow of a difference it is not usable *)
+        filter_bounded         if the filter is usable, no number of a form exceeds 2^900, far from overflow *)
 
 From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
 From Flocq Require Import Core Mult_error.
@@ -355,7 +353,8 @@ Definition within_error (error : R) (l : list R) : bool := Rle_bool (size_of l) 
 Definition hopeless (error : R) (more : nat) (y : list R) : bool :=
   (3 <=? max_depth - S more)%nat && within_error error y.
 
-(** axes_to_subdivision: `sides` is separated's, b to p the ends and starts of the differences. *)
+(** axes_to_subdivision after its comparison of coordinates (`packs_separated_by_coordinates`): `sides` is separated's, b
+    to p the ends and starts of the differences. *)
 Definition filter (sides : sides_of) (inside : query -> list form)
     (b_end b_start c_end c_start p_end p_start : Contact.moving) : Subdivision.outcome :=
   let d := differences_of b_end b_start c_end c_start p_end p_start in

@@ -2,7 +2,7 @@
 
     A format has radix 2, precision p, and the smallest positive number eta = 2^emin (Flocq's FLT: gradual
     underflow). It has no largest number: a computation without overflow gives the same numbers in a format with one.
-    These files do not cover overflow. "direction" is any rounding to a neighbour (up, down, to zero, to nearest);
+    These files do not cover overflow. "direction" is any monotone rounding to a neighbour (up, down, to zero, to nearest);
     results for nearest say so. Notation, as in the C++ headers:
         eps = 2^(1-p)     the largest relative error of a rounding in any direction
         u   = 2^-p        the largest relative error to nearest

@@ -3,10 +3,12 @@
 
     A number x has a value a and a bound sa, |a - x| <= sa. A rule has these parts, and `rule` lists their properties:
         rounding          a term for the rounding error of an operation, from the result v
-        inflated          the bound times a factor that covers the bound's own roundings
-        underflow, lost   numbers of eta for underflows: in the bound, and in the numerator of a quotient's bound
+        inflated          the bound times a factor f that covers the bound's own roundings
+        underflow, lost   multiples of eta for underflows: in the bound, and in the numerator of a quotient's bound
         early             true if these are added before the last term of a sum
-    A bound is the rounding term and the error inherited from the operands, inflated. *)
+    A bound is the rounding term and the error inherited from the operands, inflated. r and h are the largest errors of a
+    rounding, relative and of small numbers (`rounding_error` in Format.v); a rounding leaves at least the share q of a
+    normal number. Results: add_sound, multiply_sound, divide_sound, scale_sound *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
@@ -23,7 +25,7 @@ Proof.
   - apply Rmult_le_compat_l; auto. apply Rabs_pos.
   - apply Rmult_le_compat; auto using Rabs_pos. generalize (Rabs_triang_inv y b). rewrite (Rabs_minus_sym y). lra.
 Qed.
-(** The printed rule's bound of an exact quotient, multiplied by the denominators. *)
+(** The error that an exact quotient inherits. *)
 Lemma quotient_inherits a x sa b y sb :
   Rabs (a - x) <= sa -> Rabs (b - y) <= sb -> 0 < Rabs b - sb ->
   Rabs (a / b - x / y) <= (sa + Rabs (a / b) * sb) / (Rabs b - sb).
@@ -82,7 +84,7 @@ Definition divide (v a sa b sb : R) : option R :=
 
 End Code.
 
-(** The share that the last term of `total` keeps. *)
+(** The share that the sums of `total` leave of the inherited error. *)
 Definition last (early : bool) (q : R) : R := if early then q else q * q.
 
 Section Rule.
@@ -95,11 +97,12 @@ Notation number := (number p emin).
 Notation eta := (eta emin).
 Notation smallest_normal := (smallest_normal p emin).
 
-(** A rounding leaves at least the share q of a normal number. *)
+(** The properties of a rule's parts. *)
 Record rule {r h q f : R} : Prop := {
   error : rounding_error p emin direction r h;
   share : 0 < q <= 1;
   share_error : q * (1 + r) <= 1;
+  (* a rounding leaves at least the share q of a normal number *)
   share_left : forall x, smallest_normal <= Rabs x -> Rabs x * q <= Rabs (fl x);
   (* the rounding term is at least the error of its operation *)
   rounding_number : forall v, number (rounding v);
@@ -114,6 +117,7 @@ Record rule {r h q f : R} : Prop := {
   (* underflows: of a product and of the products in its bound, of a quotient and of its bound, and in its numerator *)
   underflow_number : number underflow;
   underflow_2 : 2 * eta <= underflow;
+  (* |b| + sb may be rounded, which takes up to 1 - q of a number below smallest_normal *)
   underflow_products : (smallest_normal - eta) * (1 - q) <= (underflow - 3 * h) * q;
   underflow_quotients : h * (2 + f) <= underflow;
   lost_number : number lost;
@@ -241,7 +245,7 @@ Proof.
   destruct (total_left R I) as (N & L & G & S); auto; [apply (rounding_number B) | apply rnd_number |].
   generalize (underflow_2 B) (underflow_products B) (eta_le_smallest_normal p emin) last_q. intros U2 UP ES Q.
   set (s := total _ _ _ _ _ R I) in *. set (l := last early q) in *. rewrite (factor B).
-  (* below the smallest normal number all sums are exact, and the products lose at most `underflow` *)
+  (* below the smallest normal number all sums are exact, except |b| + sb; the products lose at most `underflow` *)
   apply scaled_covers with (q * q * q * l); auto using (factor_1 B), (factor_roundings B); try lra.
   assert (U3 : 3 * h <= underflow) by nra.
   assert (Q1 : q * l <= q * q) by nra. assert (Q2 : q * q * q * l <= q * q) by nra.
@@ -277,7 +281,7 @@ Proof.
   apply Rle_trans with ((Rabs b - sb) * (q * (1 + r))); [| nra].
   replace ((Rabs b - sb) * (q * (1 + r))) with ((Rabs b - sb) * (1 + r) * q) by ring. apply Rmult_le_compat_r; lra.
 Qed.
-(** The numerator, and the inherited error as computed. *)
+(** The numerator of the inherited error, as computed. *)
 Lemma numerator_left sa sb k s : number sa -> number sb -> 0 <= sa -> 0 <= sb -> 0 <= s <= k ->
   (sa + s * sb) * (q * q * q) <=
     numerator p emin direction early sa (fl (k * sb)) (if Rlt_bool 0 sb then lost else 0).

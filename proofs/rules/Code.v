@@ -1,9 +1,9 @@
 (** The C++ code, line by line, over any number type: include/errbound/rules/*.hpp, the default sign_of of
     tracked.hpp, error_free.hpp and functions.hpp, with the operations of `arithmetic`.
 
-    Nothing is proved here. Ieee.v takes IEEE floats as the numbers and proves that these functions are those of the
-    theorems. TieProgram.v makes a program of them, with which tests/errbound/validation/tie_test.cpp compares the
-    C++ code. *)
+    Nothing is proved here. Ieee.v takes IEEE floats as the numbers, and IeeeRules.v and other files prove theorems about
+    these functions on them. TieProgram.v makes a program of them, with which tests/errbound/validation/tie_test.cpp
+    compares the C++ code. *)
 
 From Coq Require Import ZArith Bool.
 

@@ -1,4 +1,5 @@
 // Collision detection when memory runs out.
+#include <ccd/bodies/steps.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
@@ -95,6 +96,25 @@ TEST(CcdFaults, RepeatedSteps) {
             return steps.for_each_candidate(backwards, {}, options).edge_edge;
         });
     }
+}
+
+TEST(CcdFaults, StepsOfBodies) {
+    const mesh flat{{{0, 0, 0}, {2, 0, 0}, {0, 2, 1}}, {{0, 1, 2}}},
+        steep{{{0, 0, 0}, {1, 1.5, 0.25}, {0.25, 0.125, 1.75}}, {{0, 1, 2}}};
+    const std::vector<body_motion> motions{
+        screw({0, 0, 0.125}, {}, {0.25, 0.125, 1}),
+        affine_motion{.p0 = {0.5, 0.25, 0.375}, .p1 = {0.25, 0.125, 0.75}}};
+    for (const int threads : {1, 2})
+        try_every_allocation(
+            "body_steps::run, threads: " + std::to_string(threads),
+            [&] {
+                return body_steps({flat, steep});
+            },
+            [&](body_steps& steps) {
+                const auto found = steps.run(motions, {.check_start = true, .threads = threads});
+                return std::tuple(content(found.pairs), content(found.touching_at_start),
+                                  found.crossing_at_start);
+            });
 }
 
 /// Near-degenerate queries, which reach all stages.

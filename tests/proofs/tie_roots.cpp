@@ -121,7 +121,7 @@ void put_dyadics(hash& h, drawn_numbers& s) {
 
 std::uint64_t drawn_modulus(drawn_numbers& s) {
     const int kind = s.draw(8);
-    if (kind < 4) return errbound::roots::large_prime(static_cast<std::size_t>(kind));
+    if (kind < 4) return errbound::roots::large_primes[static_cast<std::size_t>(kind)];
     if (kind < 6) return kind == 4 ? 3 : 5;
     return 2 * static_cast<std::uint64_t>(s.natural(kind == 6 ? 30 : 60) + 1) + 1;
 }
@@ -149,13 +149,13 @@ void put_zero_divisors(hash& h, drawn_numbers& s) {
 }
 /// Residues of a multiple of the modulus, or next to one.
 void put_residue(hash& h, drawn_numbers& s) {
-    const prime_field field(errbound::roots::large_prime(static_cast<std::size_t>(s.draw(4))));
+    const prime_field field(errbound::roots::large_primes[static_cast<std::size_t>(s.draw(4))]);
     const whole multiple = (s.draw(5) - 2) * whole(field.modulus());
     put(h, whole(errbound::roots::residue(whole(multiple + s.draw(3) - 1), field)));
 }
 /// Values of a random polynomial, and of one that is zero there.
 void put_value_modulo(hash& h, drawn_numbers& s) {
-    const prime_field field(errbound::roots::large_prime(static_cast<std::size_t>(s.draw(4))));
+    const prime_field field(errbound::roots::large_primes[static_cast<std::size_t>(s.draw(4))]);
     const polynomial p = s.form(s.draw(6));
     const point x = s.place();
     const int e = x.exponent();

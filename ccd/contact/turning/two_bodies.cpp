@@ -26,7 +26,7 @@ first_time up_to(double t_max, const first_time& time) {
 template <kind K>
 std::optional<first_time> decided_by_signs(std::span<const body_point> points,
                                            const body_filter<K>& bodies, double t_max,
-                                           answer wanted) {
+                                           answer wanted, const stop_query& stop) {
     touching_interval part;
     switch (bodies.decide(&part)) {
         case outcome::separate:
@@ -37,7 +37,7 @@ std::optional<first_time> decided_by_signs(std::span<const body_point> points,
                 return first_time{outcome::collides, part.low, part.high};
             if (const auto time = bracket_in_fixed_width<K>(points, part))
                 return up_to(t_max, {outcome::collides, time->low, time->high});
-            return up_to(t_max, first_root_time(y_of_bodies<K>(points), part.low, part.high));
+            return up_to(t_max, first_root_time(y_of_bodies<K>(points), part.low, part.high, stop));
         default:
             return {};
     }
@@ -46,7 +46,8 @@ std::optional<first_time> decided_by_signs(std::span<const body_point> points,
 /// Same as first_within_of_bodies, for two bodies with these chords.
 template <kind K>
 first_time first_within_of_two(std::span<const body_point> points, const motion_chords& a,
-                               const motion_chords& b, separation d, double t_max, answer wanted) {
+                               const motion_chords& b, separation d, double t_max, answer wanted,
+                               const stop_query& stop) {
     const bool contact = d.first == 0 && d.second == 0;
     const body_filter<K> bodies(points, a, b);
     if (bodies.separated(contact ? 0 : rounded_up_sum(d))) return never;
@@ -54,11 +55,11 @@ first_time first_within_of_two(std::span<const body_point> points, const motion_
     polynomial_source y;
     if constexpr (is_cubic(K)) {
         if (contact && t_max >= 0)
-            if (const auto decided = decided_by_signs<K>(points, bodies, t_max, wanted))
+            if (const auto decided = decided_by_signs<K>(points, bodies, t_max, wanted, stop))
                 return *decided;
         y = [points] { return y_of_bodies<K>(points); };
     }
-    return first_of_valid<K>(points, d, t_max, arithmetic::floating_point_first, y);
+    return first_of_valid<K>(points, d, t_max, arithmetic::floating_point_first, y, stop);
 }
 
 /// Calls f with the chords of a point's motion, and returns its result.
@@ -72,17 +73,17 @@ first_time with_chords(const body_point& p, const F& f) {
 
 template <kind K>
 first_time first_within_of_bodies(std::span<const body_point> points, separation d, double t_max,
-                                  answer wanted) {
+                                  answer wanted, const stop_query& stop) {
     if (!is_distance(d) || !std::isfinite(t_max)) return {};
     for (const body_point& p : points)
         if (p.motion == nullptr) return {};
     if (!has_two_bodies<K>(points))
         return are_valid(points)
-                   ? first_of_valid<K>(points, d, t_max, arithmetic::floating_point_first, {})
+                   ? first_of_valid<K>(points, d, t_max, arithmetic::floating_point_first, {}, stop)
                    : first_time{};
     return with_chords(points.front(), [&](const motion_chords& a) {
         return with_chords(points.back(), [&](const motion_chords& b) {
-            return first_within_of_two<K>(points, a, b, d, t_max, wanted);
+            return first_within_of_two<K>(points, a, b, d, t_max, wanted, stop);
         });
     });
 }
@@ -160,7 +161,7 @@ first_time first_within(const Query& query, separation d, double t_max, answer w
     const auto* points = reinterpret_cast<const body_point*>(&query);
     constexpr std::size_t count = sizeof(query) / sizeof(body_point);
     static_assert(count * sizeof(body_point) == sizeof(query));
-    return first_within_of_bodies<kind_of<Query>>({points, count}, d, t_max, wanted);
+    return first_within_of_bodies<kind_of<Query>>({points, count}, d, t_max, wanted, {});
 }
 
 template first_time first_within(const vertex_face_of<body_point>&, separation, double, answer);
@@ -169,12 +170,15 @@ template first_time first_within(const vertex_edge_of<body_point>&, separation, 
 template first_time first_within(const vertex_vertex_of<body_point>&, separation, double, answer);
 
 template first_time first_within_of_bodies<kind::vertex_face>(std::span<const body_point>,
-                                                              separation, double, answer);
+                                                              separation, double, answer,
+                                                              const stop_query&);
 template first_time first_within_of_bodies<kind::edge_edge>(std::span<const body_point>, separation,
-                                                            double, answer);
+                                                            double, answer, const stop_query&);
 template first_time first_within_of_bodies<kind::vertex_edge>(std::span<const body_point>,
-                                                              separation, double, answer);
+                                                              separation, double, answer,
+                                                              const stop_query&);
 template first_time first_within_of_bodies<kind::vertex_vertex>(std::span<const body_point>,
-                                                                separation, double, answer);
+                                                                separation, double, answer,
+                                                                const stop_query&);
 
 }  // namespace ccd::detail

@@ -5,16 +5,18 @@
 #include <array>
 #include <ccd/bodies/motion.hpp>
 #include <ccd/curves.hpp>
+#include <ccd/execution.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/verdict.hpp>
 #include <span>
 
 namespace ccd::detail {
 
-/// Same as first_within (ccd/curves.hpp), for points in the order of points_of.
+/// Same as first_within (ccd/curves.hpp), for points in the order of points_of. Polls `stop` during
+/// exact computations.
 template <kind K>
 first_time first_within_of_bodies(std::span<const body_point> points, separation d, double t_max,
-                                  answer wanted);
+                                  answer wanted, const stop_query& stop);
 
 /// True if the inside of the edge goes through the inside of the face at t = 0: the ends of the
 /// edge are on different sides of the face's plane. Exact. Preconditions: the points of each have

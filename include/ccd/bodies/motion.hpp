@@ -9,7 +9,7 @@
 // Positions such as v and f0 are in the body's rest frame. Calls of ccd/curves.hpp accept such
 // queries and decide about the poses as given, without rounding. Cost: below a microsecond for a
 // decision in floating point, some microseconds for a first time, 0.1 to 1 ms for degenerate
-// contact; seconds were seen at extreme exponents and with distances.
+// contact; tenths of a second at extreme exponents, seconds with features of several bodies.
 #pragma once
 
 #include <array>

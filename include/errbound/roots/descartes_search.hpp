@@ -369,7 +369,7 @@ class descartes_search {
 
     const form& p_;
     work_meter& meter_;
-    const prime_field field_{large_prime(0)};
+    const prime_field field_{large_primes[0]};
     std::vector<std::uint64_t> residues_;
     form slope_ = {}, curvature_ = {};
     std::vector<part> parts_;  ///< descending; processed from the last, the leftmost

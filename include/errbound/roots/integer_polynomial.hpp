@@ -285,7 +285,7 @@ struct remainders {
 /// True if p, primitive, certainly has no multiple roots.
 template <class Integer>
 bool surely_squarefree(const integer_form<Integer>& p, work_meter& meter) {
-    const prime_field field(large_prime(0));
+    const prime_field field(large_primes[0]);
     auto image = residues(p, field);
     if (image.back() == 0) return false;
     auto slope = derivative(field, image);
@@ -309,8 +309,10 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
     if (a.empty()) return b;
     const Integer lead = gcd(a.back(), b.back());
     remainders<Integer> found;
+    std::uint64_t prime = 0;
     for (std::size_t k = 0;; ++k) {
-        const prime_field field(large_prime(k));
+        prime = k < large_primes.size() ? large_primes[k] : prime_before(prime);
+        const prime_field field(prime);
         auto a_image = residues(a, field), b_image = residues(b, field);
         if (a_image.back() == 0 || b_image.back() == 0) continue;
         auto image = common_factor(field, std::move(a_image), std::move(b_image), meter);

@@ -89,6 +89,7 @@ constexpr bool is_prime(std::uint64_t n) {
     return true;
 }
 
+/// The largest primes below 2^62, descending.
 inline constexpr std::array large_primes = [] {
     std::array<std::uint64_t, 4> primes{57, 87, 117, 143};
     for (auto& p : primes) p = (std::uint64_t(1) << 62) - p;
@@ -96,16 +97,10 @@ inline constexpr std::array large_primes = [] {
 }();
 static_assert(std::all_of(large_primes.begin(), large_primes.end(), is_prime));
 
+/// The largest prime below p. Precondition: as is_prime, for the result.
 constexpr std::uint64_t prime_before(std::uint64_t p) {
     do p -= 2;
     while (!is_prime(p));
-    return p;
-}
-/// The k-th largest prime below 2^62.
-constexpr std::uint64_t large_prime(std::size_t k) {
-    if (k < large_primes.size()) return large_primes[k];
-    std::uint64_t p = large_primes.back();
-    for (std::size_t i = large_primes.size(); i <= k; ++i) p = prime_before(p);
     return p;
 }
 

@@ -360,6 +360,20 @@ TEST(body_steps, report_a_needle_through_a_face_that_moves_with_it) {
     EXPECT_EQ(free.crossing_at_start, expected);
     EXPECT_EQ(free.fraction, 1);
 }
+TEST(body_steps, far_away_are_as_exact) {
+    const mesh needle{{{0.25, 0.25, -1}, {0.25, 0.25, 1}}, {}, {{0, 1}}},
+        triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}}, {{2, 1, 0}}};
+    body_steps steps({triangle, mesh{}, needle});
+    for (const double far : {0.0, 0x1p54, 0x1p900}) {
+        const affine_motion away{.p0 = {far, -far, far}, .p1 = {1, 2, 3}};
+        const motions together(3, away);
+        const auto found = steps.run(together, {.check_start = true});
+        EXPECT_EQ(found.crossing_at_start, (std::vector<ccd::edge_face_pair>{{{4, 5}, {0, 1, 2}}}));
+        // The vertex of no face rests at the needle's end.
+        EXPECT_EQ(found.touching_at_start.vertex_edge.size(), 1u);
+        EXPECT_EQ(number_of(found.pairs), 1u);
+    }
+}
 TEST(body_steps, that_rest_on_each_other_do_not_cross_at_the_start) {
     // A turned box stands on another; rounded positions would cross. Then it is lower by 2^-52.
     const quaternion q{3, 1, 4, 1};
@@ -454,6 +468,34 @@ TEST(body_steps, at_extreme_scales_miss_nothing) {
         const motions moving{ccd::screw({0, 0, 1}, {}, {}), ccd::screw({0, 0, -1}, {}, {})};
         EXPECT_GT(number_of(steps.run(moving).pairs), 0u);
     }
+}
+// One pair, whose exact numbers have many thousand bits. Polls during its computation end it.
+TEST(body_steps, are_stopped_within_a_pair) {
+    body_steps steps(
+        {mesh{{{0x1p-900, 3, 0x1p900}}, {}},
+         mesh{{{0, 0x1p-800, 0x1p900}, {1, 0x1p850, 0}, {0x1p800, 0, 0x1p-700}}, {{0, 1, 2}}}});
+    const motions moving{
+        rigid_motion{{1, 0x1p-700, 0, 0x1p-20}, {1, 0, 0x1p-600, 0.5}, {}, {1, 0, 0x1p-900}, {}},
+        ccd::screw({0x1p-500, 1, 0x1p-3}, {0x1p-900, 0, 1}, {0, 0, 1})};
+    int polls = 0, last = 0;
+    const body_step_options options{
+        .distance = {0x1p-100, 0x1p200}, .threads = 1, .stop = [&] { return ++polls == last; }};
+    const auto expected = steps.run(moving, options);
+    EXPECT_EQ(expected.candidates.vertex_face, 1u);
+    expect_result(expected,
+                  by_brute_force(steps, {{steps.rest(0), steps.rest(1)}, moving}, options));
+    const int all = polls;
+    EXPECT_GT(all, 100);
+    for (const int n : {1, 2, all / 2, all - 1, all}) {
+        polls = 0;
+        last = n;
+        EXPECT_THROW(steps.run(moving, options), ccd::stopped);
+        EXPECT_EQ(polls, n);
+    }
+    EXPECT_THROW(
+        steps.run(moving, {.distance = options.distance, .stop = []() -> bool { throw 1; }}), int);
+    expect_result(steps.run(moving, {.distance = options.distance}), expected);
+    std::cout << all << " polls\n";
 }
 TEST(body_steps, refuse_bad_input) {
     const auto message = [](auto&& call) -> std::string {

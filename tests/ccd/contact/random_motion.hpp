@@ -44,6 +44,11 @@ class random_source {
     /// On a coarse grid, where many degenerate cases arise, or anywhere in [−1, 1]. Some are moved
     /// off the grid by a unit in the last place.
     double number(int most) {
+        if (spread == 0) return number_of_one_size(most);
+        return std::ldexp(number_of_one_size(most),
+                          static_cast<int>(below(2 * spread + 1)) - static_cast<int>(spread));
+    }
+    double number_of_one_size(int most) {
         if (!on_grid) return std::ldexp(static_cast<double>(random_()), -63) - 1;
         const double x = whole(most);
         if (!nudged || below(4) != 0) return x;
@@ -58,9 +63,11 @@ class random_source {
         flat = below(4) == 0;
         nudged = below(4) == 0;
         scale = below(4) == 0 ? static_cast<int>(below(1900)) - 1000 : 0;
+        spread = scale == 0 && below(4) == 0 ? 60 : 0;
     }
     bool on_grid = true, flat = false, nudged = false;
-    int scale = 0;  ///< of positions: a power of two
+    int scale = 0;        ///< of positions: a power of two
+    unsigned spread = 0;  ///< the largest exponent of factors of all numbers
 
   private:
     std::mt19937_64 random_;

@@ -175,7 +175,7 @@ class PagesOfBodies(Scenes):
                                                             [[1, 0, 0, 4], [1, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]]},
                            {"mesh": "wall.obj"})
         self.run_program("bodies", scene, "--view", out)
-        self.assertIn("<title>errbound: a step of bodies</title>", out.read_text())
+        self.assertIn("<title>errbound: bodies</title>", out.read_text())
         return Page(out.read_text())
 
     def test_arrays(self):

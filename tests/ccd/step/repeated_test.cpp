@@ -30,15 +30,17 @@ void add_sheet(ccd::mesh& mesh, vertex_index n, double from, double height,
         }
 }
 
-/// A mesh, and steps in which parts or all of it rest. In some meshes, a small sheet drifts over a
-/// large one and is thrown elsewhere.
+/// A mesh, and steps in which parts or all of it rest. In some meshes, two small sheets that touch
+/// drift over a large one and are thrown elsewhere.
 class resting_sequence {
   public:
     explicit resting_sequence(std::uint64_t seed) : random_(seed) {
         if (seed % 4 == 3) {
             add_sheet(mesh_, 12, 0, 0, random_);
-            first_of_sheet_ = mesh_.vertices.size();
+            first_of_sheets_ = mesh_.vertices.size();
             add_sheet(mesh_, 4, 3, 0.5, random_);
+            second_small_sheet_ = mesh_.vertices.size();
+            add_sheet(mesh_, 2, 3.5, 0.5, random_);
         } else {
             mesh_ = (seed % 4 == 0 ? random_mixture(seed) : random_soup(seed, 70, 50)).first;
         }
@@ -61,7 +63,7 @@ class resting_sequence {
                 p.y += double(random_() % 30);
                 p.z = one_in(2) ? 1e12 : 0;
             }
-        if (first_of_sheet_ > 0) {
+        if (first_of_sheets_ > 0) {
             if (one_in(12)) drift_ = {32 * eighths(), eighths(), eighths()};
             if (one_in(6)) move_one();
             drift();
@@ -71,12 +73,24 @@ class resting_sequence {
         }
         seen_.push_back(after);
     }
-    /// Sets a step after the last one in which the small sheet drifts.
+    /// Sets a step after the last one in which the small sheets drift.
     void drift() {
         before = after;
         if (one_in(4)) drift_ = {eighths(), eighths(), eighths()};
-        for (std::size_t v = first_of_sheet_; v < after.size() && !one_in(200); ++v)
+        for (std::size_t v = first_of_sheets_; v < after.size() && !one_in(200); ++v)
             after[v] = {after[v].x + drift_.x, after[v].y + drift_.y, after[v].z + drift_.z};
+    }
+    /// Sets a step in which the small sheets go far away and meet there, or come from there.
+    void leave(bool backwards) {
+        const auto far = [&] { return std::ldexp(eighths(), static_cast<int>(random_() % 32)); };
+        drift_ = {far(), far(), far()};
+        drift();
+        // An axis x − y separates them here, but not far away.
+        for (std::size_t v = second_small_sheet_; v < before.size(); ++v)
+            (are_apart_ ? after : before)[v].x += are_apart_ ? -8 : 8;
+        are_apart_ = backwards;
+        if (backwards) std::swap(before, after);
+        drift_ = {0, 0, 0};
     }
     ccd::step_options options() {
         const auto sets = ccd::instruction_sets();
@@ -107,7 +121,8 @@ class resting_sequence {
 
     std::mt19937_64 random_;
     ccd::mesh mesh_;
-    std::size_t first_of_sheet_ = 0;
+    std::size_t first_of_sheets_ = 0, second_small_sheet_ = 0;
+    bool are_apart_ = false;  ///< the small sheets
     ccd::point<double> drift_{0, 0, 0};
     std::vector<std::uint8_t> pinned_;
     std::vector<std::vector<ccd::point<double>>> seen_;
@@ -150,6 +165,21 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhereASheetDriftsForLong) {
         ASSERT_EQ(kept.run(way, {.threads = 1}).pairs,
                   ccd::step(sequence.mesh().faces, {}, way, {.threads = 1}).pairs)
             << step;
+    }
+}
+
+// Positions far outside of the box around earlier ones are rounded in a new box.
+TEST(MeshSteps, FindWhatFreshOnesFindWhereSheetsLeaveTheRest) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        resting_sequence sequence(4 * seed + 3);
+        ccd::mesh_steps kept(sequence.mesh());
+        for (int step = 0; step < 12; ++step) {
+            step % 3 == 2 ? sequence.leave(seed % 2 == 0) : sequence.drift();
+            const ccd::vertex_rows way(sequence.before, sequence.after);
+            ASSERT_EQ(kept.run(way, {.threads = 1}).pairs,
+                      ccd::step(sequence.mesh().faces, {}, way, {.threads = 1}).pairs)
+                << seed << ", step " << step;
+        }
     }
 }
 

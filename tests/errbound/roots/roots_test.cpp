@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <errbound/polynomial.hpp>
 #include <limits>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,6 +73,33 @@ void expect_isolated(const real_roots<integer>& roots, const sample& s, const ta
             ASSERT_FALSE(sturm.is_root(root.low) || sturm.is_root(root.high)) << text(s);
             ASSERT_EQ(tarski(f, {1}).between(root.low, root.high), 0) << text(s);
         }
+    }
+}
+
+// Their images modulo some hundred primes are combined.
+TEST(CommonFactors, HaveLongCoefficients) {
+    std::mt19937_64 random(1);
+    const auto drawn = [&](int words) {
+        form f;
+        for (int i = 0; i < 4; ++i) {
+            integer c = 1;
+            for (int k = 0; k < words; ++k) c = (c << 64U) + random();
+            f.push_back(random() % 2 == 0 ? c : integer(-c));
+        }
+        return f;
+    };
+    const auto product = [](const form& p, const form& q) {
+        form r(p.size() + q.size() - 1);
+        for (std::size_t i = 0; i < p.size(); ++i)
+            for (std::size_t j = 0; j < q.size(); ++j) r[i + j] += p[i] * q[j];
+        return r;
+    };
+    for (const int words : {0, 1, 5, 200}) {
+        form expected = drawn(words);
+        make_primitive(expected);
+        const form found =
+            common_factor(product(expected, {2, 3, -7}), product(expected, {5, 1, 1, 1}));
+        EXPECT_TRUE(found == expected || found == product(expected, {-1})) << words;
     }
 }
 
