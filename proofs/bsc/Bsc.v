@@ -481,13 +481,22 @@ Proof.
   - intros E. destruct (Yes E) as (t & T & Z & P). exists t. rewrite H in Z. repeat split; auto; lra.
 Qed.
 
-Lemma on_whole_part_sound y gs curvature parts : length y = 4%nat -> five gs ->
-  signs_inside curvature (exacts (ddy y)) ->
-  (opposite (ddy y) = true \/ curvature = uncertain -> sound (parts (ddy y)) y gs) ->
-  curvature <> zero -> sound (on_whole_part y gs curvature parts) y gs.
+(** A property of each of its answers is one of on_whole_part. *)
+Lemma on_whole_part_cases (Right : existence -> list S -> Prop) y gs curvature parts : length y = 4%nat ->
+  signs_inside curvature (exacts (ddy y)) -> curvature <> zero ->
+  ((forall t, 0 <= t <= 1 -> form_at y t = 0 -> excluded gs t) -> Right no y) ->
+  (forall e, Right e (map opp y) -> Right e y) ->
+  (forall y, length y = 4%nat -> (forall a b, 0 <= a -> a < b -> b <= 1 -> form_at y a < form_at y b) ->
+     Right (on_increasing y gs) y) ->
+  (forall y d, length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) -> convex (form_at y) (form_at d) ->
+     Right (on_convex y d gs) y) ->
+  ((forall t, form_at y t = exact (y#0)) -> Right (if possibly_zero (sign_of (y#0)) then maybe_root else no) y) ->
+  (sign_inside (dy y) = uncertain -> curvature = uncertain ->
+     (opposite (ddy y) = false -> inside (ddy y) = zero \/ inside (ddy y) = uncertain) -> Right (parts (ddy y)) y) ->
+  Right (on_whole_part y gs curvature parts) y.
 Proof.
-  intros L F K Parts Nz. unfold on_whole_part. destruct (excluded_by_hull y gs) eqn:H.
-  { split; [| easy]. intros _ t T Z. apply orb_prop in H. destruct H as [H | H].
+  intros L K Nz No Opp Rising Curved Constant Parts. unfold on_whole_part. destruct (excluded_by_hull y gs) eqn:H.
+  { apply No. intros t T Z. apply orb_prop in H. destruct H as [H | H].
     - now apply rootless_hull with (t := t) in H.
     - apply existsb_exists in H. destruct H as (g & I & N). apply Exists_exists. exists g. split; auto.
       pose proof (sign_throughout_right g t T) as R. destruct (sign_throughout g); easy. }
@@ -495,36 +504,36 @@ Proof.
   assert (Lo : length (map opp y) = 4%nat) by now rewrite map_length.
   pose proof (sign_inside_coefficients (dy y)) as Slope.
   destruct (sign_inside (dy y)).
-  - apply sound_opp, on_increasing_sound; auto. apply monotone_by_signs; auto. rewrite Eo. exact Slope.
-  - simpl in Slope. split.
-    + intros E t T Z. exfalso. assert (Y : form_at y t = exact (y#0)).
-      { rewrite <- at_start by now destruct y. pose proof (simpson y 0 t L) as Q.
-        assert (Zero : forall x, form_at (dy y) x = 0).
-        { intros x. unfold at_time. clear -Slope. induction Slope as [| a h <- _ IH]; simpl; [easy |].
-            rewrite IH. ring. }
-        rewrite !Zero in Q. lra. }
-      rewrite Z in Y. pose proof (signs_of (y#0)) as (A & _ & B).
-      destruct (sign_of (y#0)); simpl in E; try discriminate; [specialize (A eq_refl) | specialize (B
-        eq_refl)]; lra.
-    + now destruct (possibly_zero _).
-  - apply on_increasing_sound; auto. now apply monotone_by_signs.
-  - set (c := if negb (certain curvature) && negb (opposite (ddy y)) then inside (ddy y) else
-      curvature).
-    assert (Ls : length (ddy y) = 2%nat) by now four y L.
+  - apply Opp, Rising; auto. apply monotone_by_signs; auto. rewrite Eo. exact Slope.
+  - apply Constant. intros t. rewrite <- at_start by now destruct y. pose proof (simpson y 0 t L) as Q.
+    assert (Zero : forall x, form_at (dy y) x = 0).
+    { intros x. unfold at_time. clear -Slope. simpl in Slope.
+      induction Slope as [| a h <- _ IH]; simpl; [easy |]. rewrite IH. ring. }
+    rewrite !Zero in Q. lra.
+  - apply Rising; auto. now apply monotone_by_signs.
+  - assert (Ls : length (ddy y) = 2%nat) by now four y L. assert (Ld : length (dy y) = 3%nat) by now four y L.
+    pose proof (inside_signs (ddy y) Ls) as Inside. clear Slope.
+    set (c := if negb (certain curvature) && negb (opposite (ddy y)) then inside (ddy y) else curvature).
     assert (Kc : signs_inside c (exacts (ddy y))).
-    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto.
-      now apply inside_signs. }
-    assert (Ld : length (dy y) = 3%nat) by now four y L.
-    assert (P : c = zero \/ c = uncertain -> sound (parts (ddy y)) y gs).
-    { intros C. apply Parts. unfold c in C.
-      destruct curvature, (opposite (ddy y)); simpl in C; auto; intuition discriminate. }
-    destruct c eqn:Ec; auto.
-    + apply sound_opp, on_convex_sound; auto; try (now rewrite map_length); [now rewrite exacts_opp, Eo
-        |].
+    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)); simpl; auto. }
+    assert (P : c = zero \/ c = uncertain -> Right (parts (ddy y)) y).
+    { unfold c. intros C. apply Parts; auto; destruct curvature, (opposite (ddy y)); simpl in C; intuition congruence. }
+    destruct c; auto.
+    + apply Opp, Curved; auto; try (now rewrite map_length); [now rewrite exacts_opp, Eo |].
       replace (form_at (map opp (dy y))) with (form_at (dy (map opp y)))
         by (unfold at_time; now rewrite exacts_opp, Eo).
       apply convex_by_signs; auto. rewrite Eoo. exact Kc.
-    + apply on_convex_sound; auto. now apply convex_by_signs.
+    + apply Curved; auto. now apply convex_by_signs.
+Qed.
+Lemma on_whole_part_sound y gs curvature parts : length y = 4%nat -> five gs ->
+  signs_inside curvature (exacts (ddy y)) ->
+  (opposite (ddy y) = true \/ curvature = uncertain -> sound (parts (ddy y)) y gs) ->
+  curvature <> zero -> sound (on_whole_part y gs curvature parts) y gs.
+Proof.
+  intros L F K Parts Nz. apply (on_whole_part_cases (fun e y => sound e y gs)); auto using sound_opp,
+    on_increasing_sound, on_convex_sound; [now split |].
+  intros Y. split; [| now destruct (possibly_zero _)]. intros E t _ Z. exfalso. rewrite Y in Z.
+  pose proof (signs_of (y#0)) as (A & _ & C). destruct (sign_of (y#0)); try discriminate; intuition lra.
 Qed.
 
 Lemma on_curved_sound y gs curvature : length y = 4%nat -> five gs ->
@@ -660,6 +669,37 @@ Proof.
     solve [constructor 1; lra | constructor 2; constructor 1; lra].
 Qed.
 
+(** The parts at the inflection, and their curvature. *)
+Lemma split_at_inflection y : length y = 4%nat -> opposite (ddy y) = true ->
+  let (v, w) := linear_root (ddy y) in
+  let parts_of f := let (a, b) := split f v w in (normalized a, normalized b) in
+  exists m, 0 < m < 1 /\
+    (forall p, length p = 4%nat \/ length p = 5%nat ->
+       is_part p (fst (parts_of p)) 0 m /\ is_part p (snd (parts_of p)) m 1) /\
+    signs_inside (sign_of (ddy y # 0)) (exacts (ddy (fst (parts_of y)))) /\
+    signs_inside (sign_of (ddy y # 1)) (exacts (ddy (snd (parts_of y)))).
+Proof.
+  intros L O. assert (Ls : length (ddy y) = 2%nat) by now four y L.
+  destruct (opposite_root _ Ls O) as (m & M & Zm & _ & _ & _ & v & w & E & V & W & Em). rewrite E. intros parts_of.
+  assert (P : forall p, length p = 4%nat \/ length p = 5%nat ->
+    is_part p (fst (parts_of p)) 0 m /\ is_part p (snd (parts_of p)) m 1).
+  { intros p Lp. rewrite Em. destruct (split_parts p v w Lp V W) as (A & B). unfold parts_of.
+    destruct (split p v w). split; now apply part_normalized. }
+  exists m. split; [easy |]. split; [exact P |]. destruct (P y (or_introl L)) as (P0 & P1).
+  assert (L0 := proj1 P0). assert (L1 := proj1 P1). rewrite L in L0, L1.
+  destruct (second_of_part y _ 0 m L P0) as (c0 & C0 & S0). destruct (second_of_part y _ m 1 L P1) as (c1 & C1 & S1).
+  assert (At0 : form_at (ddy y) 0 = exact (ddy y # 0)) by (apply at_start; now destruct (ddy y)).
+  assert (At1 : form_at (ddy y) 1 = exact (ddy y # 1)) by now apply at_finish.
+  assert (K0 : 0 < c0 * ((m - 0) * (m - 0))) by (repeat apply Rmult_lt_0_compat; lra).
+  assert (K1 : 0 < c1 * ((1 - m) * (1 - m))) by (repeat apply Rmult_lt_0_compat; lra).
+  rewrite (second_of_cubic _ L0), !S0, (second_of_cubic _ L1), !S1.
+  replace (0 + (m - 0) * 0) with 0 by ring. replace (0 + (m - 0) * 1) with m by ring.
+  replace (m + (1 - m) * 0) with m by ring. replace (m + (1 - m) * 1) with 1 by ring.
+  rewrite Zm, At0, At1, <- !Rmult_assoc, (Rmult_assoc c0), (Rmult_assoc c1). split.
+  - apply (strict_beside_0 _ _ _ (proj1 (opposite_signs _ O)) (sign_right S (ddy y # 0)) K0).
+  - apply (strict_beside_0 _ _ _ (proj2 (opposite_signs _ O)) (sign_right S (ddy y # 1)) K1).
+Qed.
+
 Lemma on_part_sound halvings : forall y gs, length y = 4%nat -> five gs -> sound (on_part y gs halvings)
   y gs.
 Proof.
@@ -685,40 +725,19 @@ Proof.
         in_turn (more (fst (parts_of y)) (map (fun f => fst (parts_of f)) gs))
                 (more (snd (parts_of y)) (map (fun f => snd (parts_of f)) gs)))) y gs).
   { intros y gs more L F More. apply on_whole_part_sound; simpl; auto; [| discriminate]. intros _.
-    assert (Ls : length (ddy y) = 2%nat) by now four y L.
     destruct (opposite (ddy y)) eqn:O.
-    - destruct (opposite_root _ Ls O) as (m & M & Zm & _ & _ & _ & v & w & E & V & W & Em). rewrite E.
-      set (parts_of := fun f : list S => let (a, b) := split f v w in (normalized a, normalized b)).
-      assert (P : forall p, length p = 4%nat \/ length p = 5%nat ->
-        is_part p (fst (parts_of p)) 0 m /\ is_part p (snd (parts_of p)) m 1).
-      { intros p Lp. rewrite Em. destruct (split_parts p v w Lp V W) as (A & B). unfold parts_of.
-        destruct (split p v w). split; now apply part_normalized. }
-      destruct (Five gs m parts_of P F) as (F0 & F1 & G).
-      destruct (P y (or_introl L)) as (P0 & P1).
+    - pose proof (split_at_inflection y L O) as H. destruct (linear_root (ddy y)) as (v, w). cbv zeta in H.
+      set (parts_of := fun f : list S => let (a, b) := split f v w in (normalized a, normalized b)) in *.
+      destruct H as (m & M & P & S0 & S1), (opposite_signs _ O) as (C0 & C1).
+      destruct (Five gs m parts_of P F) as (F0 & F1 & G). destruct (P y (or_introl L)) as (P0 & P1).
       assert (L0 := proj1 P0). assert (L1 := proj1 P1). rewrite L in L0, L1.
-      destruct (second_of_part y _ 0 m L P0) as (c0 & C0 & S0).
-      destruct (second_of_part y _ m 1 L P1) as (c1 & C1 & S1).
-      assert (At0 : form_at (ddy y) 0 = exact (ddy y # 0)) by (apply at_start; now destruct (ddy y)).
-      assert (At1 : form_at (ddy y) 1 = exact (ddy y # 1)) by now apply at_finish.
-      assert (K0 : 0 < c0 * ((m - 0) * (m - 0))) by (repeat apply Rmult_lt_0_compat; lra).
-      assert (K1 : 0 < c1 * ((1 - m) * (1 - m))) by (repeat apply Rmult_lt_0_compat; lra).
       apply (sound_parts _ (on_curved (fst (parts_of y)) (map (fun f => fst (parts_of f)) gs) (sign_of
         (ddy y # 0)))
         (on_curved (snd (parts_of y)) (map (fun f => snd (parts_of f)) gs) (sign_of (ddy y # 1)))
         y gs (fst (parts_of y)) (snd (parts_of y)) (fun f => fst (parts_of f)) (fun f => snd (parts_of
           f)) m); auto.
-      + apply on_curved_sound; auto.
-        * rewrite (second_of_cubic _ L0), !S0.
-          replace (0 + (m - 0) * 0) with 0 by ring. replace (0 + (m - 0) * 1) with m by ring.
-          rewrite Zm, At0. rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c0).
-          apply (strict_beside_0 _ _ _ (proj1 (opposite_signs _ O)) (sign_right S (ddy y # 0)) K0).
-        * destruct (proj1 (opposite_signs _ O)) as [-> | ->]; discriminate.
-      + apply on_curved_sound; auto.
-        * rewrite (second_of_cubic _ L1), !S1.
-          replace (m + (1 - m) * 0) with m by ring. replace (m + (1 - m) * 1) with 1 by ring.
-          rewrite Zm, At1. rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c1).
-          apply (strict_beside_0 _ _ _ (proj2 (opposite_signs _ O)) (sign_right S (ddy y # 1)) K1).
-        * destruct (proj2 (opposite_signs _ O)) as [-> | ->]; discriminate.
+      + apply on_curved_sound; auto. destruct C0 as [-> | ->]; discriminate.
+      + apply on_curved_sound; auto. destruct C1 as [-> | ->]; discriminate.
       + apply either_no.
       + apply either_yes.
     - set (parts_of := fun f : list S => let (a, b) := halves f in (normalized a, normalized b)).

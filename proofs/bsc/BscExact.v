@@ -465,49 +465,20 @@ Lemma on_whole_part_answered y gs curvature parts : length y = 4%nat -> five gs 
   (opposite (ddy y) = true -> curvature = uncertain -> answers (parts (ddy y)) (roots y) gs) ->
   answered (on_whole_part y gs curvature parts) y gs.
 Proof.
-  intros L F K Nz Parts. unfold on_whole_part. destruct (excluded_by_hull y gs) eqn:H.
-  { right. intros t (T & Z). apply orb_prop in H. destruct H as [H | H].
-    - now apply rootless_hull with (t := t) in H.
-    - apply existsb_exists in H. destruct H as (g & I & N). apply Exists_exists. exists g. split; auto.
-      pose proof (sign_throughout_right g t T) as R. destruct (sign_throughout g); easy. }
-  destruct (derivative_opp y L) as (Eo & Eoo).
-  assert (Lo : length (map opp y) = 4%nat) by now rewrite map_length.
-  pose proof (sign_inside_coefficients (dy y)) as Slope.
-  destruct (sign_inside (dy y)) eqn:Es.
-  - right. apply answers_opp, on_increasing_answers; auto. apply monotone_by_signs; auto. rewrite Eo.
-    exact Slope.
-  - assert (Y : forall t, form_at y t = exact (y#0)).
-    { intros t. rewrite <- at_start by now destruct y. pose proof (simpson y 0 t L) as Q.
-      assert (Zero : forall x, form_at (dy y) x = 0).
-      { intros x. unfold at_time. clear -Slope. simpl in Slope.
-        induction Slope as [| a h <- _ IH]; simpl; [easy |]. rewrite IH. ring. }
-      rewrite !Zero in Q. lra. }
-    destruct (sign_tells (y#0)) as (C & R). unfold answered.
-    destruct (sign_of (y#0)); try easy; simpl in *; [right | left; split; auto; intros t; now rewrite Y
-      | right];
+  intros L F K Nz Parts. apply (on_whole_part_cases (fun e y => answered e y gs)); auto.
+  - intros No. right. intros t (T & Z). auto.
+  - intros e [(E & Z) | A]; [left; split; auto; intros t; specialize (Z t) | right; now apply answers_opp].
+    unfold at_time in *. rewrite exacts_opp, form_opp in Z. lra.
+  - intros. right. now apply on_increasing_answers.
+  - intros. right. now apply on_convex_answers.
+  - intros Y. destruct (sign_tells (y#0)) as (C & R). unfold answered.
+    destruct (sign_of (y#0)); try easy; simpl in *; [right | left; split; auto; intros t; now rewrite Y | right];
       intros t (_ & Z); rewrite Y in Z; lra.
-  - right. apply on_increasing_answers; auto. now apply monotone_by_signs.
-  - set (c := if negb (certain curvature) && negb (opposite (ddy y)) then inside (ddy y) else
-    curvature).
-    assert (Ls : length (ddy y) = 2%nat) by now four y L.
+  - intros Es C Inside. assert (Ls : length (ddy y) = 2%nat) by now four y L.
     assert (Ld : length (dy y) = 3%nat) by now four y L.
-    pose proof (inside_certain (ddy y)) as Ci.
-    assert (Kc : signs_inside c (exacts (ddy y))).
-    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto.
-      now apply inside_signs. }
-    assert (Nc : c <> zero).
-    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto. intros E.
-      now apply (linear_slope (dy y) Ld) in Es; [| apply zero_form]. }
-    assert (Uc : c = uncertain -> opposite (ddy y) = true /\ curvature = uncertain).
-    { unfold c. destruct curvature, (opposite (ddy y)); simpl; auto; easy. }
-    right. destruct c eqn:Ec; try easy.
-    + apply answers_opp, on_convex_answers; auto; try (now rewrite map_length); [now rewrite exacts_opp,
-      Eo |].
-      replace (form_at (map opp (dy y))) with (form_at (dy (map opp y)))
-        by (unfold at_time; now rewrite exacts_opp, Eo).
-      apply convex_by_signs; auto. rewrite Eoo. exact Kc.
-    + apply on_convex_answers; auto. now apply convex_by_signs.
-    + apply Parts; now apply Uc.
+    right. destruct (opposite (ddy y)) eqn:O; [auto | exfalso]. destruct (Inside eq_refl) as [E | E].
+    + now apply (linear_slope (dy y) Ld) in Es; [| apply zero_form].
+    + now apply inside_certain in E.
 Qed.
 
 Lemma on_curved_answers y gs curvature : length y = 4%nat -> five gs ->
@@ -579,14 +550,10 @@ Lemma split_answers y gs : length y = 4%nat -> five gs -> opposite (ddy y) = tru
             (on_curved (snd (parts_of y)) (map (fun f => snd (parts_of f)) gs) (sign_of (ddy y # 1))))
     (roots y) gs.
 Proof.
-  intros L F O. assert (Ls : length (ddy y) = 2%nat) by now four y L.
-  destruct (opposite_root _ Ls O) as (m & M & Zm & _ & _ & _ & v & w & E & V & W & Em). rewrite E.
-    intros parts_of.
-  assert (P : forall p, length p = 4%nat \/ length p = 5%nat ->
-    is_part p (fst (parts_of p)) 0 m /\ is_part p (snd (parts_of p)) m 1).
-  { intros p Lp. rewrite Em. destruct (split_parts p v w Lp V W) as (A & B). unfold parts_of.
-    destruct (split p v w). split; now apply part_normalized. }
-  destruct (P y (or_introl L)) as (P0 & P1).
+  intros L F O. pose proof (split_at_inflection y L O) as H. destruct (linear_root (ddy y)) as (v, w).
+  intros parts_of. cbv zeta in H.
+  change (fun f : list S => let (a, b) := split f v w in (normalized a, normalized b)) with parts_of in H.
+  destruct H as (m & M & P & S0 & S1), (opposite_signs _ O) as (C0 & C1), (P y (or_introl L)) as (P0 & P1).
   assert (G0 : Forall (fun g => is_part g (fst (parts_of g)) 0 m) gs)
     by (eapply Forall_impl; [| exact F]; intros g Lg; apply P; now right).
   assert (G1 : Forall (fun g => is_part g (snd (parts_of g)) m 1) gs)
@@ -595,28 +562,14 @@ Proof.
   { intros f a b G. apply Forall_map. rewrite Forall_forall in *. intros g I.
     destruct (G g I) as (-> & _). auto. }
   assert (L0 := proj1 P0). assert (L1 := proj1 P1). rewrite L in L0, L1.
-  destruct (second_of_part y _ 0 m L P0) as (c0 & C0 & S0).
-  destruct (second_of_part y _ m 1 L P1) as (c1 & C1 & S1).
-  assert (At0 : form_at (ddy y) 0 = exact (ddy y # 0)) by (apply at_start; now destruct (ddy y)).
-  assert (At1 : form_at (ddy y) 1 = exact (ddy y # 1)) by now apply at_finish.
-  assert (K0 : 0 < c0 * ((m - 0) * (m - 0))) by (repeat apply Rmult_lt_0_compat; lra).
-  assert (K1 : 0 < c1 * ((1 - m) * (1 - m))) by (repeat apply Rmult_lt_0_compat; lra).
   apply (answers_either _ _ (fun t => 0 <= t <= m /\ form_at y t = 0) (fun t => m <= t <= 1 /\ form_at y
     t = 0)).
   - intros t. unfold roots. split; [| intros [(T & Z) | (T & Z)]; split; auto; lra]. intros (T & Z).
     destruct (Rle_or_lt t m); [left | right]; split; auto; lra.
   - apply (answers_part _ y (fst (parts_of y)) _ (fun f => fst (parts_of f))); auto; [lra |].
-    apply on_curved_answers; auto; [now apply (Five _ 0 m) | | apply (opposite_signs _ O)].
-    rewrite (second_of_cubic _ L0), !S0.
-    replace (0 + (m - 0) * 0) with 0 by ring. replace (0 + (m - 0) * 1) with m by ring. rewrite Zm, At0.
-    rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c0).
-    apply (strict_beside_0 _ _ _ (proj1 (opposite_signs _ O)) (sign_right S (ddy y # 0)) K0).
+    apply on_curved_answers; auto. now apply (Five _ 0 m).
   - apply (answers_part _ y (snd (parts_of y)) _ (fun f => snd (parts_of f))); auto; [lra |].
-    apply on_curved_answers; auto; [now apply (Five _ m 1) | | apply (opposite_signs _ O)].
-    rewrite (second_of_cubic _ L1), !S1.
-    replace (m + (1 - m) * 0) with m by ring. replace (m + (1 - m) * 1) with 1 by ring. rewrite Zm, At1.
-    rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c1).
-    apply (strict_beside_0 _ _ _ (proj2 (opposite_signs _ O)) (sign_right S (ddy y # 1)) K1).
+    apply on_curved_answers; auto. now apply (Five _ m 1).
 Qed.
 
 (** No subinterval is halved. *)

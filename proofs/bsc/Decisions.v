@@ -303,18 +303,8 @@ Qed.
 Theorem face_separated n v f0 f1 f2 : before n v f0 -> before n v f1 -> before n v f2 ->
   ~ vertex_face_collides v f0 f1 f2.
 Proof.
-  intros P0 P1 P2 (t & T & (u & w & U & W & UW & E)).
-  pose proof (before_throughout n _ _ t P0 T) as Q0. pose proof (before_throughout n _ _ t P1 T) as Q1.
-  pose proof (before_throughout n _ _ t P2 T) as Q2. revert Q0 Q1 Q2. rewrite E.
-  generalize (place f0 t) (place f1 t) (place f2 t). intros a b c.
-  set (q := along (along a u (minus b a)) w (minus c a)). intros Q0 Q1 Q2.
-  assert (Z : (1 - u - w) * dot n (minus a q) + u * dot n (minus b q) + w * dot n (minus c q) = 0)
-    by (unfold q, dot, along, minus; simpl; ring).
-  assert (0 <= (1 - u - w) * dot n (minus a q)) by (apply Rmult_le_pos; lra).
-  assert (0 <= u * dot n (minus b q)) by (apply Rmult_le_pos; lra).
-  assert (0 <= w * dot n (minus c q)) by (apply Rmult_le_pos; lra).
-  assert (H2 : u * dot n (minus b q) = 0) by lra. assert (H3 : w * dot n (minus c q) = 0) by lra.
-  apply Rmult_integral in H2, H3. destruct H2, H3; try lra. subst u w. lra.
+  intros P0 P1 P2 (t & T & C). apply (Rlt_irrefl (dot n (place v t))), triangle_beyond with (1 := C);
+    apply Rminus_gt_0_lt; rewrite <- dot_minus; now apply before_throughout.
 Qed.
 
 Theorem vertex_edge_separated n v e0 e1 : before n v e0 -> before n v e1 -> ~ vertex_edge_collides v e0 e1.
@@ -327,18 +317,6 @@ Theorem edges_separated n a0 a1 b0 b1 : before n a0 b0 -> before n a0 b1 -> befo
   b1 ->
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
-  intros P00 P01 P10 P11 (t & T & (p & (u & U & Ea) & (w & W & Eb))).
-  pose proof (before_throughout n _ _ t P00 T) as Q0.
-  pose proof (before_throughout n _ _ t P01 T) as Q1.
-  pose proof (before_throughout n _ _ t P10 T) as Q2.
-  pose proof (before_throughout n _ _ t P11 T) as Q3.
-  revert Ea Eb Q0 Q1 Q2 Q3. generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t).
-  intros a c d g Ea Eb Q0 Q1 Q2 Q3.
-  assert (Z : (1 - u) * ((1 - w) * dot n (minus d a) + w * dot n (minus g a))
-              + u * ((1 - w) * dot n (minus d c) + w * dot n (minus g c)) = 0).
-  { transitivity (dot n (minus p p)); [rewrite Ea at 2; rewrite Eb at 1 | ]; unfold dot, along, minus;
-      simpl; ring. }
-  assert (Mix : forall k g h, 0 <= k <= 1 -> 0 < g -> 0 < h -> 0 < (1 - k) * g + k * h) by (intros;
-    nra).
-  pose proof (Mix w _ _ W Q0 Q1). pose proof (Mix w _ _ W Q2 Q3). specialize (Mix u _ _ U H H0). lra.
+  intros P00 P01 P10 P11 (t & T & M). revert M.
+  apply (segments_apart n); apply Rminus_gt_0_lt; rewrite <- dot_minus; now apply before_throughout.
 Qed.

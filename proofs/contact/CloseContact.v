@@ -781,6 +781,18 @@ Proof.
     + rewrite Z0, Rmult_0_r in A. apply eq_IZR. lra.
 Qed.
 
+Lemma halves_of q : is_close_part y q -> let m := close_start q + / 2 * (close_end q - close_start q) in
+  let first := sub_part q 1 0 0 in let second := sub_part q 1 1 0 in is_close_part y first /\ is_close_part y second /\
+  close_start first = close_start q /\ close_end first = m /\ close_start second = m /\ close_end second = close_end q.
+Proof.
+  intros H m first second. pose proof H as (_ & _ & (W & U & _) & _).
+  destruct (sub_part_is_part y q 1 0 0 y_length H) as (P0 & _ & _ & S0 & E0); [lia |].
+  destruct (sub_part_is_part y q 1 1 0 y_length H) as (P1 & _ & _ & S1 & E1); [lia |].
+  change (0 + 2 ^ 0)%Z with 1%Z in E0. change (1 + 2 ^ 0)%Z with 2%Z in E1.
+  unfold over in *. change (2 ^ 1)%Z with 2%Z in *. unfold m, first, second.
+  split; [exact P0 |]. split; [exact P1 |]. repeat split; lra.
+Qed.
+
 Lemma next_of_right q : close_good q -> any_root three (close_roots q) = true ->
   match next_of distinct three q with
   | inl o => close_answers (close_start q) (close_end q) o
@@ -813,11 +825,7 @@ Proof.
     - destruct (inside_from _ _ _); split; intros X; try discriminate X; easy.
     - rewrite Z.pow_add_r by lia. pose proof (Z.pow_pos_nonneg 2 (width_bits q)). lia.
     - unfold max_bits in *. lia. }
-  assert (Half : over 1 1 = / 2 /\ over 0 1 = 0 /\ over 2 1 = 1) by (unfold over; change (2 ^ 1)%Z with 2%Z; lra).
-  destruct (sub_part_is_part y tested 1 0 0 y_length H) as (_ & _ & _ & S0 & E0); [cbn [tested width_bits]; lia |].
-  destruct (sub_part_is_part y tested 1 1 0 y_length H) as (_ & _ & _ & S1 & E1); [cbn [tested width_bits]; lia |].
-  change (0 + 2 ^ 0)%Z with 1%Z in E0. change (1 + 2 ^ 0)%Z with 2%Z in E1. destruct Half as (H1 & H0 & H2).
-  rewrite H0 in S0. rewrite H1 in E0, S1. rewrite H2 in E1.
+  destruct (halves_of tested H) as (_ & _ & S0 & E0 & S1 & E1).
   change (close_start tested) with (close_start q) in *. change (close_end tested) with (close_end q) in *. fold m in E0, S1.
   destruct ((_ =? 0)%Z && contact_in_middle tested) eqn:M.
   - apply andb_prop in M. destruct M as (M0 & M1). exists m. split; [unfold m; lra |]. split; [now apply Zm | now apply Inm].
@@ -906,19 +914,12 @@ Proof.
   { apply narrowed_narrower in E; auto. apply proj1, Na in E. intros I. injection I as <-. split; [constructor; auto |].
     split; [simpl; lia |]. rewrite all_changes_cons. destruct E as (_ & _ & _ & _ & E). cbn. lia. }
   destruct ((_ =? 0)%Z && _); [discriminate |]. intros I. injection I as <-.
-  pose proof H as (_ & _ & (W & U & _) & _).
-  assert (Half : over 1 1 = / 2 /\ over 0 1 = 0 /\ over 2 1 = 1) by (unfold over; change (2 ^ 1)%Z with 2%Z; lra).
-  destruct (sub_part_is_part y tested 1 0 0 y_length H) as (P0 & _ & _ & S0 & E0); [cbn [tested width_bits]; lia |].
-  destruct (sub_part_is_part y tested 1 1 0 y_length H) as (P1 & _ & _ & S1 & E1); [cbn [tested width_bits]; lia |].
-  change (0 + 2 ^ 0)%Z with 1%Z in E0. change (1 + 2 ^ 0)%Z with 2%Z in E1. destruct Half as (H1 & H0 & H2).
-  rewrite H0 in S0. rewrite H1 in E0, S1. rewrite H2 in E1.
+  pose proof H as (_ & _ & (W & U & _) & _). destruct (halves_of tested H) as (P0 & P1 & S0 & E0 & S1 & E1).
   change (close_start tested) with (close_start q) in *. change (close_end tested) with (close_end q) in *.
   split; [| split; [simpl; lia |]].
   - constructor; [| constructor; [| constructor]]; apply Na, sub_part_narrower; auto; cbn; lia.
   - rewrite !all_changes_cons, Nat.add_0_r, (close_changes y _ P0), (close_changes y _ P1), (close_changes y q H).
     rewrite S0, E0, S1, E1.
-    replace (close_start q + 0 * (close_end q - close_start q)) with (close_start q) by ring.
-    replace (close_start q + 1 * (close_end q - close_start q)) with (close_end q) by ring.
     destruct (parts_changes y (close_start q) (close_start q + / 2 * (close_end q - close_start q)) (close_end q) y_length
       ltac:(lra)) as (Le & _). lia.
 Qed.

@@ -53,6 +53,35 @@ Proof.
   intros ->. apply E. coordinates. ring.
 Qed.
 
+(** A point of a triangle or of a segment is as far along n as one of the corners. *)
+Lemma dot_minus n p q : dot n (minus p q) = dot n p - dot n q.
+Proof. coordinates. ring. Qed.
+Lemma dot_opposite n q : dot (along origin (-1) n) q = - dot n q.
+Proof. coordinates. ring. Qed.
+Lemma triangle_beyond n r p a b c : in_triangle p a b c -> r < dot n a -> r < dot n b -> r < dot n c -> r < dot n p.
+Proof.
+  intros (u & v & U & V & W & ->) A B C. set (e := Rmin (dot n a) (Rmin (dot n b) (dot n c))).
+  assert (L : r < e) by now repeat apply Rmin_glb_lt. apply Rlt_le_trans with (1 := L).
+  pose proof (Rmin_l (dot n a) (Rmin (dot n b) (dot n c))) as Ea. fold e in Ea.
+  pose proof (Rmin_r (dot n a) (Rmin (dot n b) (dot n c))) as Er. fold e in Er.
+  pose proof (Rmin_l (dot n b) (dot n c)). pose proof (Rmin_r (dot n b) (dot n c)).
+  replace (dot n (along _ _ _)) with ((1 - u - v) * (dot n a - e) + u * (dot n b - e) + v * (dot n c - e) + e)
+    by (clearbody e; coordinates; ring).
+  assert (0 <= (1 - u - v) * (dot n a - e)) by (apply Rmult_le_pos; lra).
+  assert (0 <= u * (dot n b - e)) by (apply Rmult_le_pos; lra).
+  assert (0 <= v * (dot n c - e)) by (apply Rmult_le_pos; lra). lra.
+Qed.
+Lemma segment_beyond n r p a b : in_segment p a b -> r < dot n a -> r < dot n b -> r < dot n p.
+Proof.
+  intros (u & U & ->) A B. apply (triangle_beyond n r _ a b a); auto. exists u, 0. repeat split; try lra. vector.
+Qed.
+Lemma segments_apart n a0 a1 b0 b1 : dot n a0 < dot n b0 -> dot n a0 < dot n b1 -> dot n a1 < dot n b0 ->
+  dot n a1 < dot n b1 -> ~ segments_meet a0 a1 b0 b1.
+Proof.
+  intros A00 A01 A10 A11 (p & A & B). apply (Rlt_irrefl (- dot n p)). rewrite <- dot_opposite at 2.
+  apply segment_beyond with (1 := A); rewrite dot_opposite; apply Ropp_lt_contravar, segment_beyond with (1 := B); auto.
+Qed.
+
 (** Vectors whose cross product vanishes are parallel. *)
 Lemma parallel v w : v <> origin -> cross v w = origin -> exists k, w = along origin k v.
 Proof.
@@ -200,18 +229,10 @@ Lemma edges_at_normal a0 a1 b0 b1 : let B := minus a1 a0 in let C := minus b1 b0
   cross B C <> origin -> det B C P = 0 ->
   along a0 (on_a B C P / square_normal B C) B = along b0 (on_b B C P / square_normal B C) C.
 Proof.
-  intros B C P N Y. apply square_positive in N. pose proof (decomposed B C P) as D. cbv zeta in D.
-  rewrite Y in D. apply point_eq in D. unfold square_normal.
-  set (n2 := dot (cross B C) (cross B C)) in *.
-  unfold on_a. fold (weight_1 B C P). replace (on_b B C P) with (- weight_2 B C P)
-    by (unfold on_b, weight_2, dot, cross; simpl; ring).
-  set (u := weight_1 B C P) in *. set (v := weight_2 B C P) in *.
-  destruct D as (D0 & D1 & D2). unfold along, origin in D0, D1, D2. cbn [x y z] in D0, D1, D2.
-  assert (Ep : x b0 = x a0 + x P /\ y b0 = y a0 + y P /\ z b0 = z a0 + z P) by (unfold P, minus; simpl;
-    lra).
-  destruct Ep as (E0 & E1 & E2).
-  unfold along. apply same_point; cbn [x y z]; apply Rmult_eq_reg_r with n2; try lra;
-    [rewrite E0 | rewrite E1 | rewrite E2]; field_simplify; lra.
+  intros B C P N Y. assert (Tip : forall v, minus (along a0 1 v) a0 = v) by (intros v; vector).
+  pose proof (face_at_normal b0 a0 (along a0 1 B) (along a0 1 C)) as E. cbv zeta in E. rewrite !Tip in E.
+  specialize (E N Y). fold P in E. replace (on_b B C P) with (- weight_2 B C P) by (unfold on_b, weight_2; vector).
+  unfold on_a. fold (weight_1 B C P). unfold Rdiv in *. clearbody P. vector.
 Qed.
 
 Lemma weights_at_meeting a0 a1 b0 b1 s t : along a0 s (minus a1 a0) = along b0 t (minus b1 b0) ->
@@ -656,19 +677,8 @@ Lemma face_closed v f0 f1 f2 s b : s < b ->
 Proof.
   intros B D H. destruct (off_degenerate (place v s) _ _ _ D) as [| (n & P0 & P1 & P2)]; auto. exfalso.
   destruct (all_stay_separated n s b [(f0, v); (f1, v); (f2, v)] B) as (e & E & P); [now repeat constructor |].
-  set (t := (s + e) / 2). specialize (P t ltac:(unfold t; lra)). assert (T : s < t <= b) by (unfold t; lra).
-  rewrite !Forall_cons_iff in P. destruct P as (Q0 & Q1 & Q2 & _).
-  destruct (H t ltac:(lra)) as (u & w & U & W & UW & Ep).
-  assert (Z : (1 - u - w) * dot n (minus (place f0 t) (place v t)) + u * dot n (minus (place f1 t)
-    (place v t))
-              + w * dot n (minus (place f2 t) (place v t)) = 0).
-  { rewrite Ep. generalize (place f0 t) (place f1 t) (place f2 t). intros a c d. vector. }
-  assert (Weights : forall g h k, 0 < g -> 0 < h -> 0 < k -> 0 < (1 - u - w) * g + u * h + w * k).
-  { intros g h k G Hh K. assert (0 <= (1 - u - w) * g) by (apply Rmult_le_pos; lra).
-    assert (0 <= u * h) by (apply Rmult_le_pos; lra). assert (0 <= w * k) by (apply Rmult_le_pos; lra).
-    destruct (Req_dec u 0) as [-> |]; [| assert (0 < u * h) by (apply Rmult_lt_0_compat; lra); lra].
-    destruct (Req_dec w 0) as [-> |]; [| assert (0 < w * k) by (apply Rmult_lt_0_compat; lra)]; lra. }
-  specialize (Weights _ _ _ Q0 Q1 Q2). cbn [fst snd] in Weights. lra.
+  set (t := (s + e) / 2). specialize (P t ltac:(unfold t; lra)). rewrite !Forall_cons_iff, !dot_minus in P.
+  apply (Rlt_irrefl (dot n (place v t))), triangle_beyond with (1 := H t ltac:(unfold t; lra)); apply Rminus_gt_0_lt, P.
 Qed.
 Lemma edges_closed a0 a1 b0 b1 s b : s < b ->
   cross (minus (place a1 s) (place a0 s)) (minus (place b1 s) (place b0 s)) = origin ->
@@ -677,22 +687,9 @@ Lemma edges_closed a0 a1 b0 b1 s b : s < b ->
 Proof.
   intros B D H. destruct (off_parallel _ _ _ _ D) as [| (n & P0 & P1 & P2 & P3)]; auto. exfalso.
   destruct (all_stay_separated n s b [(b0, a0); (b1, a0); (b0, a1); (b1, a1)] B) as (e & E & P); [now repeat constructor |].
-  set (t := (s + e) / 2). specialize (P t ltac:(unfold t; lra)). assert (T : s < t <= b) by (unfold t; lra).
-  rewrite !Forall_cons_iff in P. destruct P as (Q0 & Q1 & Q2 & Q3 & _). cbn [fst snd] in Q0, Q1, Q2, Q3.
-  destruct (H t ltac:(lra)) as (p & (u & U & Ea) & (w & W & Eb)).
-  assert (Z : (1 - u) * ((1 - w) * dot n (minus (place b0 t) (place a0 t)) + w * dot n (minus (place b1
-    t) (place a0 t)))
-              + u * ((1 - w) * dot n (minus (place b0 t) (place a1 t)) + w * dot n (minus (place b1 t)
-                  (place a1 t))) = 0).
-  { transitivity (dot n (minus p p)); [rewrite Ea at 2; rewrite Eb at 1 | vector].
-    generalize (place a0 t) (place a1 t) (place b0 t) (place b1 t). intros a c d g. vector. }
-  assert (Mix : forall k g h, 0 <= k <= 1 -> 0 < g -> 0 < h -> 0 < (1 - k) * g + k * h) by (intros;
-    nra).
-  assert (0 < (1 - w) * dot n (minus (place b0 t) (place a0 t)) + w * dot n (minus (place b1 t) (place
-    a0 t))) by auto.
-  assert (0 < (1 - w) * dot n (minus (place b0 t) (place a1 t)) + w * dot n (minus (place b1 t) (place
-    a1 t))) by auto.
-  specialize (Mix u _ _ U H0 H1). lra.
+  set (t := (s + e) / 2). specialize (P t ltac:(unfold t; lra)). rewrite !Forall_cons_iff, !dot_minus in P.
+  generalize (H t ltac:(unfold t; lra)).
+  apply (segments_apart n); apply Rminus_gt_0_lt, P.
 Qed.
 
 (** All weights are positive, as interior_contact tests. *)

@@ -243,12 +243,11 @@ Proof.
   rewrite (L p a u v (- t)), (L q a u v (1 - t)), (L c a 0 1 0) by lra.
   rewrite !det_of_combinations. repeat split; [ring | ring |]. f_equal; [| f_equal; [| f_equal]]; ring.
 Qed.
-(** The point at which a line meets a plane, by the weights of both. *)
-Lemma meeting_point p q a b c : volume a b c p <> volume a b c q ->
-  let k := volume a b c p - volume a b c q in
-  along p (volume a b c p / k) (minus q p) = weighted a b c (- volume p q c a / k) (- volume p q a b / k).
+Lemma line_meets_plane p q a b c : volume a b c p <> volume a b c q ->
+  exists t u v, along p t (minus q p) = weighted a b c u v.
 Proof.
-  intros N k. assert (K : k <> 0) by (unfold k; lra).
+  intros N. set (k := volume a b c p - volume a b c q). assert (K : k <> 0) by (unfold k; lra).
+  exists (volume a b c p / k), (- volume p q c a / k), (- volume p q a b / k).
   assert (I : along (along origin k p) (volume a b c p) (minus q p) =
     along (along (along origin k a) (- volume p q c a) (minus b a)) (- volume p q a b) (minus c a))
     by (unfold k; by_coordinates).
@@ -256,25 +255,10 @@ Proof.
   apply point_eq in I. destruct I as (I0 & I1 & I2). unfold weighted, along, minus, origin in *. cbn [x y z] in *.
   apply same_point; cbn [x y z]; apply Rmult_eq_reg_r with k; auto; field_simplify; auto; lra.
 Qed.
-Lemma sum_of_signs p q a b c : volume p q a b + volume p q b c + volume p q c a = - (volume a b c p - volume a b c q).
-Proof. by_coordinates. Qed.
-Lemma opposite_signs m k : 0 <= m -> k <= 0 -> 0 <= - m * k.
-Proof. intros M K. replace (- m * k) with (m * - k) by ring. apply Rmult_le_pos; lra. Qed.
-Lemma opposite_signs_strict m k : 0 < m -> k < 0 -> 0 < - m * k.
-Proof. intros M K. replace (- m * k) with (m * - k) by ring. apply Rmult_lt_0_compat; lra. Qed.
-Lemma negative_signs m k : m <= 0 -> 0 <= k -> 0 <= - m * k.
-Proof. intros M K. apply Rmult_le_pos; lra. Qed.
-Lemma negative_signs_strict m k : m < 0 -> 0 < k -> 0 < - m * k.
-Proof. intros M K. apply Rmult_lt_0_compat; lra. Qed.
 Lemma fraction m k : 0 <= m * k -> k <> 0 -> 0 <= m / k.
 Proof.
   intros M K. replace (m / k) with (m * k * / (k * k)) by (field; auto). apply Rmult_le_pos; auto.
   apply Rlt_le, Rinv_0_lt_compat. nra.
-Qed.
-Lemma fraction_positive m k : 0 < m * k -> 0 < m / k.
-Proof.
-  intros M. assert (K : k <> 0) by (intros ->; lra). replace (m / k) with (m * k * / (k * k)) by (field; auto).
-  apply Rmult_lt_0_compat; auto. apply Rinv_0_lt_compat. nra.
 Qed.
 
 Theorem edge_meets_face p q a b c : volume a b c p <> volume a b c q -> volume a b c p * volume a b c q <= 0 ->
@@ -284,21 +268,14 @@ Proof.
   - intros (s & (t & T & Es) & u & v & U & V & W & E). rewrite Es in E.
     destruct (meeting_signs p q a b c t u v E) as (_ & _ & ->). set (k := volume a b c p - volume a b c q) in *.
     destruct (Rle_or_lt 0 (- k)) as [K | K]; [left | right]; repeat (apply Forall_cons; [| try apply Forall_nil]); nra.
-  - pose proof (meeting_point p q a b c N) as E. cbv zeta in E. pose proof (sum_of_signs p q a b c) as Sum.
-    unfold edge_signs. rewrite !Forall_cons_iff. intros H.
+  - intros H. destruct (line_meets_plane p q a b c N) as (t & u & v & E).
+    destruct (meeting_signs p q a b c t u v E) as (P & Q & Signs). rewrite Signs, !Forall_cons_iff in H.
     set (k := volume a b c p - volume a b c q) in *. assert (K : k <> 0) by (unfold k; lra).
-    assert (H' : 0 <= - volume p q a b * k /\ 0 <= - volume p q b c * k /\ 0 <= - volume p q c a * k).
-    { destruct H as [(A & B & C & _) | (A & B & C & _)]; repeat split;
-        (apply opposite_signs; lra) || (apply negative_signs; lra). }
-    destruct H' as (A & B & C). apply fraction in A, B, C; auto.
-    assert (One : - volume p q a b / k + - volume p q b c / k + - volume p q c a / k = 1).
-    { apply Rmult_eq_reg_r with k; auto. field_simplify; auto; lra. }
-    assert (T0 : 0 <= volume a b c p / k) by (apply fraction; auto; unfold k; nra).
-    assert (T1 : 0 <= - volume a b c q / k) by (apply fraction; auto; unfold k; nra).
-    assert (T : volume a b c p / k + - volume a b c q / k = 1).
-    { apply Rmult_eq_reg_r with k; auto. field_simplify; auto; unfold k; ring. }
-    eexists. split; [exists (volume a b c p / k); split; [lra | reflexivity] |].
-    do 2 eexists. repeat split; [| | | exact E]; lra.
+    assert (W : 0 <= v /\ 0 <= 1 - u - v /\ 0 <= u).
+    { destruct H as [(A & B & C & _) | (A & B & C & _)]; [assert (0 < - k) by lra | assert (0 < k) by lra];
+        repeat split; nra. }
+    rewrite P, Q in S. assert (0 < k * k) by nra. assert (t * (t - 1) <= 0) by nra.
+    eexists. split; [exists t; split; [nra | reflexivity] |]. exists u, v. repeat split; [| | | exact E]; lra.
 Qed.
 Theorem edge_crosses_face p q a b c : volume a b c p <> 0 \/ volume a b c q <> 0 ->
   (exists s, open_segment s p q /\ open_triangle s a b c) <-> volume a b c p * volume a b c q < 0 /\
@@ -312,21 +289,14 @@ Proof.
     + destruct (Rlt_or_le 0 (- k)) as [L | L]; [left | right];
         repeat (apply Forall_cons; [| try apply Forall_nil]); nra.
   - intros (S & H). assert (D : volume a b c p <> volume a b c q) by (intros Z; rewrite Z in S; nra).
-    pose proof (meeting_point p q a b c D) as E. cbv zeta in E. pose proof (sum_of_signs p q a b c) as Sum.
-    unfold edge_signs in H. rewrite !Forall_cons_iff in H.
+    destruct (line_meets_plane p q a b c D) as (t & u & v & E).
+    destruct (meeting_signs p q a b c t u v E) as (P & Q & Signs). rewrite Signs, !Forall_cons_iff in H.
     set (k := volume a b c p - volume a b c q) in *. assert (K : k <> 0) by (unfold k; lra).
-    assert (H' : 0 < - volume p q a b * k /\ 0 < - volume p q b c * k /\ 0 < - volume p q c a * k).
-    { destruct H as [(A & B & C & _) | (A & B & C & _)]; repeat split;
-        (apply opposite_signs_strict; lra) || (apply negative_signs_strict; lra). }
-    destruct H' as (A & B & C). apply fraction_positive in A, B, C.
-    assert (One : - volume p q a b / k + - volume p q b c / k + - volume p q c a / k = 1).
-    { apply Rmult_eq_reg_r with k; auto. field_simplify; auto; lra. }
-    assert (T0 : 0 < volume a b c p / k) by (apply fraction_positive; unfold k; nra).
-    assert (T1 : 0 < - volume a b c q / k) by (apply fraction_positive; unfold k; nra).
-    assert (T : volume a b c p / k + - volume a b c q / k = 1).
-    { apply Rmult_eq_reg_r with k; auto. field_simplify; auto; unfold k; ring. }
-    eexists. split; [exists (volume a b c p / k); split; [lra | reflexivity] |].
-    do 2 eexists. repeat split; [| | | exact E]; lra.
+    assert (W : 0 < v /\ 0 < 1 - u - v /\ 0 < u).
+    { destruct H as [(A & B & C & _) | (A & B & C & _)]; [assert (0 < - k) by lra | assert (0 < k) by lra];
+        repeat split; nra. }
+    rewrite P, Q in S. assert (0 < k * k) by nra. assert (t * (t - 1) < 0) by nra.
+    eexists. split; [exists t; split; [nra | reflexivity] |]. exists u, v. repeat split; [| | | exact E]; lra.
 Qed.
 
 (** Vertices strictly on one side: on_one_side. An edge b0 b1 is the triangle b0 b1 b1. *)

@@ -240,13 +240,14 @@ End Margin.
 (** ** The nine axes *)
 
 (** The computed projection on an axis has an error of at most 2.02 eps M. *)
-Definition measures (m : point) (a : axis) : Prop := exists M, 0 <= M /\
+Definition measures_as (m : point) (a : axis) (M : R) : Prop := 0 <= M /\
   M * (1 - eps) <= size a <= M * (1 + eps) /\
   forall q p, number (x q) -> number (y q) -> number (z q) -> number (x p) -> number (y p) -> number (z p) ->
   let d := difference_of q p in
   Rabs (x d) <= x m -> Rabs (y d) <= y m -> Rabs (z d) <= z m ->
   number (project a d) /\ Rabs (project a d) <= 1.001 * M /\
   near (2.02 * eps * M) (project a d - dot (along_axis a) (minus q p)).
+Definition measures (m : point) (a : axis) : Prop := exists M, measures_as m a M.
 
 Lemma coordinate_measures m r s : number r -> number s -> Rabs (fl (r - s)) <= m ->
   number (fl (r - s)) /\ near (1.01 * eps * m) (fl (r - s) - (r - s)).
@@ -292,7 +293,7 @@ Proof.
   { intros n r H. apply near_more. assert (0 <= eps * n) by (apply Rmult_le_pos; lra). lra. }
   assert (Opp : forall n r s, near (1.01 * eps * n) (r - s) -> near (1.01 * eps * n) (- r - - s)).
   { intros n r s H. replace (- r - - s) with (- (r - s)) by ring. now apply near_opp. }
-  intros I. cbn in I. unfold measures.
+  intros I. cbn in I. unfold measures, measures_as.
   destruct I as [<- | [<- | [<- | [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]]]];
     [exists (x m) | exists (y m) | exists (z m) | exists (x m + y m) | exists (x m + y m) |
      exists (y m + z m) | exists (y m + z m) | exists (z m + x m) | exists (z m + x m)];
@@ -331,24 +332,6 @@ Definition within (v : bool -> point) : Prop := forall e,
   Rabs (x (v e)) <= x m /\ Rabs (y (v e)) <= y m /\ Rabs (z (v e)) <= z m.
 Definition sized (d : differences) : Prop := within (b d) /\ within (c d) /\ within (p_ d).
 
-(** An axis computed from one difference. *)
-Lemma measured a q r e M : numbers q -> numbers r ->
-  within (fun e => difference_of (at_end q e) (at_end r e)) ->
-  (forall q p, number (x q) -> number (y q) -> number (z q) -> number (x p) -> number (y p) -> number (z p) ->
-    let d := difference_of q p in
-    Rabs (x d) <= x m -> Rabs (y d) <= y m -> Rabs (z d) <= z m ->
-    number (project a d) /\ Rabs (project a d) <= 1.001 * M /\
-    near (2.02 * eps * M) (project a d - dot (along_axis a) (minus q p))) ->
-  let d := project a (difference_of (at_end q e) (at_end r e)) in
-  number d /\ Rabs d <= 1.001 * M /\
-  near (2.02 * eps * M) (d - (dot (along_axis a) (at_end q e) - dot (along_axis a) (at_end r e))).
-Proof.
-  intros Q R W H. destruct (Q e) as (Q1 & Q2 & Q3), (R e) as (R1 & R2 & R3), (W e) as (W1 & W2 & W3).
-  cbv zeta. replace (dot (along_axis a) (at_end q e) - dot (along_axis a) (at_end r e))
-    with (dot (along_axis a) (minus (at_end q e) (at_end r e))) by (unfold dot, minus; simpl; ring).
-  now apply H.
-Qed.
-
 Lemma before_of n q r : (forall e, dot n (at_end q e) < dot n (at_end r e)) -> before n q r.
 Proof. intros H. split; [apply (H false) | apply (H true)]. Qed.
 Lemma before_opposite n q r : before n q r -> before (minus origin n) r q.
@@ -373,6 +356,64 @@ Proof. destruct (Rlt_bool_spec a b); [easy | discriminate]. Qed.
 Lemma fl_le r s : r <= s -> fl r <= fl s.
 Proof. apply rnd_le; auto with typeclass_instances. Qed.
 
+(** Computed positions along an axis at one end of the step, from vertex o on. *)
+Section Positions.
+
+Context (a : axis) (M : R) (M_measures : measures_as m a M) (e : bool).
+Notation D q := (dot (along_axis a) (at_end q e)).
+Notation allowed := (fl (size a * margin)).
+
+(** Computed from one difference, or as the sum of two. *)
+Definition placed (o q : moving) (r : R) : Prop :=
+  number r /\ Rabs r <= 1.01 * M /\ near (2.02 * eps * M) (r - (D q - D o)).
+Definition placed_roughly (o q : moving) (r : R) : Prop := near (6.07 * eps * M) (r - (D q - D o)).
+
+Lemma scale_0 : 0 <= M /\ 0 <= eps * M.
+Proof. destruct M_measures as (H & _). generalize eps_tiny. intros P. split; [easy |]. apply Rmult_le_pos; lra. Qed.
+Lemma placed_reference o : placed o o 0.
+Proof. destruct scale_0. split; [apply number_0 |]. split; [rewrite Rabs_R0; lra |]. left. ring. Qed.
+Lemma placed_by_difference o q : numbers o -> numbers q ->
+  within (fun e => difference_of (at_end q e) (at_end o e)) ->
+  placed o q (project a (difference_of (at_end q e) (at_end o e))).
+Proof.
+  intros O Q W. destruct M_measures as (M0 & _ & H), (O e) as (O1 & O2 & O3), (Q e) as (Q1 & Q2 & Q3),
+    (W e) as (W1 & W2 & W3).
+  destruct (H _ _ Q1 Q2 Q3 O1 O2 O3 W1 W2 W3) as (N & L & E). unfold placed. rewrite <- dot_minus.
+  split; auto. split; [lra | exact E].
+Qed.
+Lemma placed_enough o q r : placed o q r -> placed_roughly o q r.
+Proof. intros (_ & _ & E). destruct scale_0. apply near_more with (2 := E). lra. Qed.
+Lemma placed_by_sum o n q r s : placed o n r -> placed n q s -> placed_roughly o q (fl (r + s)).
+Proof.
+  intros (Nr & Lr & Er) (Ns & Ls & Es). generalize eps_tiny. intros P. destruct scale_0 as (M0 & E0).
+  unfold placed_roughly.
+  replace (fl (r + s) - (D q - D o)) with ((fl (r + s) - (r + s)) + ((r - (D n - D o)) + (s - (D q - D n)))) by ring.
+  apply near_more with (2.03 * eps * M + (2.02 * eps * M + 2.02 * eps * M)); [lra |].
+  apply near_sum; try lra; [| apply near_sum; auto; lra].
+  apply near_more with (2 := sum_near r s Nr Ns). pose proof (Rabs_triang r s).
+  apply Rle_trans with (eps * (2.03 * M)); [apply Rmult_le_compat_l; lra | lra].
+Qed.
+
+(** Sides of an axis whose computed extremes are low and high. *)
+Lemma sides_apart o q s r t low high low' high' : placed o q r -> placed_roughly o s t ->
+  low <= r <= high -> low' <= t <= high' ->
+  (Rlt_bool (fl (high + allowed)) low' = true -> D q < D s) /\
+  (Rlt_bool high' (fl (low - allowed)) = true -> D s < D q).
+Proof.
+  intros (N & L & E) F Q S. destruct M_measures as (M0 & Ms & _), scale_0 as (_ & E0).
+  destruct (after_margin M (size a) M0 Ms _ _ _ _ (2.02 * eps * M) (6.07 * eps * M)
+    ltac:(lra) ltac:(lra) ltac:(lra) N L E F) as (A & B).
+  pose proof (fl_le (r + allowed) (high + allowed) ltac:(lra)).
+  pose proof (fl_le (low - allowed) (r - allowed) ltac:(lra)).
+  split; intros K; apply less_of in K;
+    [assert (D q - D o < D s - D o) by (apply A; lra) | assert (D s - D o < D q - D o) by (apply B; lra)]; lra.
+Qed.
+
+End Positions.
+
+Lemma between_extremes r s : Rmin r s <= r <= Rmax r s /\ Rmin r s <= s <= Rmax r s.
+Proof. pose proof (Rmin_l r s). pose proof (Rmin_r r s). pose proof (Rmax_l r s). pose proof (Rmax_r r s). lra. Qed.
+
 Section Face.
 
 Context (v f0 f1 f2 : moving) (v_numbers : numbers v) (f0_numbers : numbers f0) (f1_numbers : numbers f1)
@@ -383,46 +424,25 @@ Hypothesis d_sized : sized d.
 Lemma face_axis a : measures m a -> separated_along (face_sides d a) = true ->
   ~ vertex_face_collides v f0 f1 f2.
 Proof.
-  intros (M & M0 & Ms & H) T. generalize eps_tiny. intros P. destruct d_sized as (Wb & Wc & Wp).
-  pose (D := dot (along_axis a)).
-  assert (Zero : number 0 /\ Rabs 0 <= 1.01 * M /\ forall r, near (2.02 * eps * M) (0 - (r - r))).
-  { split; [apply number_0 |]. split; [rewrite Rabs_R0; lra |]. intros r. left. ring. }
-  assert (Side : forall e,
-    (fst (face_sides d a e) = true ->
-       D (at_end f0 e) < D (at_end v e) /\ D (at_end f1 e) < D (at_end v e) /\
-         D (at_end f2 e) < D (at_end v e)) /\
-    (snd (face_sides d a e) = true ->
-       D (at_end v e) < D (at_end f0 e) /\ D (at_end v e) < D (at_end f1 e) /\
-         D (at_end v e) < D (at_end f2 e))).
-  { intros e. pose proof (measured a f1 f0 e M f1_numbers f0_numbers Wb H) as Hb.
-    pose proof (measured a f2 f0 e M f2_numbers f0_numbers Wc H) as Hc.
-    pose proof (measured a v f0 e M v_numbers f0_numbers Wp H) as Hp. cbv zeta in Hb, Hc, Hp.
-    fold D in Hb, Hc, Hp. unfold face_sides. cbn [b c p_ differences_of fst snd].
+  intros (M & H) T. destruct d_sized as (Wb & Wc & Wp).
+  assert (Sides : forall f e, In f [f0; f1; f2] ->
+    (fst (face_sides d a e) = true -> dot (along_axis a) (at_end f e) < dot (along_axis a) (at_end v e)) /\
+    (snd (face_sides d a e) = true -> dot (along_axis a) (at_end v e) < dot (along_axis a) (at_end f e))).
+  { intros f e I. pose proof (placed_reference a M H e f0) as P0.
+    pose proof (placed_by_difference a M H e f0 f1 f0_numbers f1_numbers Wb) as P1.
+    pose proof (placed_by_difference a M H e f0 f2 f0_numbers f2_numbers Wc) as P2.
+    pose proof (placed_by_difference a M H e f0 v f0_numbers v_numbers Wp) as Pv. apply placed_enough in Pv; auto.
+    unfold face_sides. cbn [b c p_ differences_of fst snd].
     set (b' := project a (difference_of (at_end f1 e) (at_end f0 e))) in *.
     set (c' := project a (difference_of (at_end f2 e) (at_end f0 e))) in *.
     set (v' := project a (difference_of (at_end v e) (at_end f0 e))) in *.
-    destruct Hb as (Nb & Lb & Eb), Hc as (Nc & Lc & Ec), Hp as (Np & Lp & Ep), Zero as (Nz & Lz & Ez).
-    assert (G : forall r r', number r' -> Rabs r' <= 1.01 * M -> near (2.02 * eps * M) (r' - (r - D (at_end
-      f0 e))) ->
-      (fl (r' + fl (size a * margin)) < v' -> r < D (at_end v e)) /\
-      (v' < fl (r' - fl (size a * margin)) -> D (at_end v e) < r)).
-    { intros r r' N L E.
-      destruct (after_margin M (size a) M0 Ms _ _ _ _ (2.02 * eps * M) (2.02 * eps * M)
-        ltac:(lra) ltac:(lra) ltac:(lra) N L E Ep) as (A1 & A2).
-      split; intros K; [apply A1 in K | apply A2 in K]; lra. }
-    pose proof (G (D (at_end f0 e)) 0 Nz Lz (Ez _)) as G0.
-    pose proof (G (D (at_end f1 e)) b' Nb ltac:(lra) Eb) as G1.
-    pose proof (G (D (at_end f2 e)) c' Nc ltac:(lra) Ec) as G2.
-    pose proof (Rmax_l (Rmax b' c') 0). pose proof (Rmax_r (Rmax b' c') 0).
-    pose proof (Rmax_l b' c'). pose proof (Rmax_r b' c').
-    pose proof (Rmin_l (Rmin b' c') 0). pose proof (Rmin_r (Rmin b' c') 0).
-    pose proof (Rmin_l b' c'). pose proof (Rmin_r b' c').
-    split; intros K; apply less_of in K; (split; [apply G0 | split; [apply G1 | apply G2]]);
-      (eapply Rle_lt_trans; [| exact K]) || (eapply Rlt_le_trans; [exact K |]); apply fl_le; lra. }
-  apply separated_sides in T. destruct T as [T | T].
-  - apply (face_separated (minus origin (along_axis a))); apply before_opposite, before_of;
-      intros e; apply (Side e); apply T.
-  - apply (face_separated (along_axis a)); apply before_of; intros e; apply (Side e); apply T.
+    pose proof (between_extremes b' c'). pose proof (between_extremes (Rmax b' c') 0).
+    pose proof (between_extremes (Rmin b' c') 0). destruct I as [<- | [<- | [<- | []]]];
+      [apply (sides_apart a M H e f0 _ _ 0 v') | apply (sides_apart a M H e f0 _ _ b' v') |
+       apply (sides_apart a M H e f0 _ _ c' v')]; auto; lra. }
+  apply separated_sides in T. destruct T as [T | T];
+    [apply (face_separated (minus origin (along_axis a))); apply before_opposite |
+     apply (face_separated (along_axis a))]; apply before_of; intros e; apply Sides; (apply T || (simpl; auto)).
 Qed.
 
 Theorem separated_face_separate :
@@ -442,60 +462,27 @@ Hypothesis d_sized : sized d.
 Lemma edges_axis a : measures m a -> separated_along (edge_sides d a) = true ->
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
-  intros (M & M0 & Ms & H) T. generalize eps_tiny. intros P. destruct d_sized as (Wb & Wc & Wp).
-  pose (D := dot (along_axis a)).
-  assert (Zero : number 0 /\ Rabs 0 <= 1.01 * M /\ forall r, near (2.02 * eps * M) (0 - (r - r))).
-  { split; [apply number_0 |]. split; [rewrite Rabs_R0; lra |]. intros r. left. ring. }
-  assert (Side : forall e,
-    (fst (edge_sides d a e) = true ->
-       D (at_end a0 e) < D (at_end b0 e) /\ D (at_end a0 e) < D (at_end b1 e) /\
-       D (at_end a1 e) < D (at_end b0 e) /\ D (at_end a1 e) < D (at_end b1 e)) /\
-    (snd (edge_sides d a e) = true ->
-       D (at_end b0 e) < D (at_end a0 e) /\ D (at_end b1 e) < D (at_end a0 e) /\
-       D (at_end b0 e) < D (at_end a1 e) /\ D (at_end b1 e) < D (at_end a1 e))).
-  { intros e. pose proof (measured a a1 a0 e M a1_numbers a0_numbers Wb H) as Ha.
-    pose proof (measured a b1 b0 e M b1_numbers b0_numbers Wc H) as Hc.
-    pose proof (measured a b0 a0 e M b0_numbers a0_numbers Wp H) as Hp. cbv zeta in Ha, Hc, Hp.
-    fold D in Ha, Hc, Hp. unfold edge_sides. cbn [b c p_ differences_of fst snd].
+  intros (M & H) T. destruct d_sized as (Wb & Wc & Wp).
+  assert (Sides : forall f g e, In f [a0; a1] -> In g [b0; b1] ->
+    (fst (edge_sides d a e) = true -> dot (along_axis a) (at_end f e) < dot (along_axis a) (at_end g e)) /\
+    (snd (edge_sides d a e) = true -> dot (along_axis a) (at_end g e) < dot (along_axis a) (at_end f e))).
+  { intros f g e I J. pose proof (placed_reference a M H e a0) as P0.
+    pose proof (placed_by_difference a M H e a0 a1 a0_numbers a1_numbers Wb) as P1.
+    pose proof (placed_by_difference a M H e b0 b1 b0_numbers b1_numbers Wc) as Pc.
+    pose proof (placed_by_difference a M H e a0 b0 a0_numbers b0_numbers Wp) as Pb.
+    pose proof (placed_by_sum a M H e _ _ _ _ _ Pb Pc) as R1. apply placed_enough in Pb; auto.
+    unfold edge_sides. cbn [b c p_ differences_of fst snd].
     set (a' := project a (difference_of (at_end a1 e) (at_end a0 e))) in *.
-    set (c' := project a (difference_of (at_end b1 e) (at_end b0 e))) in *.
-    set (b' := project a (difference_of (at_end b0 e) (at_end a0 e))) in *.
-    destruct Ha as (Na & La & Ea), Hc as (Nc & Lc & Ec), Hp as (Np & Lp & Ep), Zero as (Nz & Lz & Ez).
-    assert (E1 : near (6.07 * eps * M) (fl (b' + c') - (D (at_end b1 e) - D (at_end a0 e)))).
-    { replace (fl (b' + c') - (D (at_end b1 e) - D (at_end a0 e))) with
-        ((fl (b' + c') - (b' + c')) + ((b' - (D (at_end b0 e) - D (at_end a0 e))) +
-                                       (c' - (D (at_end b1 e) - D (at_end b0 e))))) by ring.
-      apply near_more with (2.03 * eps * M + (2.02 * eps * M + 2.02 * eps * M)); [lra |].
-      apply near_sum; try lra; [| apply near_sum; auto; lra].
-      apply near_more with (2 := sum_near b' c' Np Nc). pose proof (Rabs_triang b' c').
-      apply Rle_trans with (eps * (2.03 * M)); [apply Rmult_le_compat_l; lra | lra]. }
-    assert (G : forall r r' s s', number r' -> Rabs r' <= 1.01 * M ->
-      near (2.02 * eps * M) (r' - (r - D (at_end a0 e))) -> near (6.07 * eps * M) (s' - (s - D (at_end a0
-        e))) ->
-      (fl (r' + fl (size a * margin)) < s' -> r < s) /\ (s' < fl (r' - fl (size a * margin)) -> s < r)).
-    { intros r r' s s' N L E F.
-      destruct (after_margin M (size a) M0 Ms _ _ _ _ (2.02 * eps * M) (6.07 * eps * M)
-        ltac:(lra) ltac:(lra) ltac:(lra) N L E F) as (A1 & A2).
-      split; intros K; [apply A1 in K | apply A2 in K]; lra. }
-    assert (E0 : near (6.07 * eps * M) (b' - (D (at_end b0 e) - D (at_end a0 e))))
-      by (apply near_more with (2 := Ep); lra).
-    pose proof (G (D (at_end a0 e)) 0 _ _ Nz Lz (Ez _) E0) as G00.
-    pose proof (G (D (at_end a0 e)) 0 _ _ Nz Lz (Ez _) E1) as G01.
-    pose proof (G (D (at_end a1 e)) a' _ _ Na ltac:(lra) Ea E0) as G10.
-    pose proof (G (D (at_end a1 e)) a' _ _ Na ltac:(lra) Ea E1) as G11.
-    set (b'' := fl (b' + c')) in *.
-    pose proof (Rmax_l a' 0) as X1. pose proof (Rmax_r a' 0) as X2. pose proof (Rmin_l a' 0) as X3.
-    pose proof (Rmin_r a' 0) as X4. pose proof (Rmax_l b' b''). pose proof (Rmax_r b' b'').
-    pose proof (Rmin_l b' b''). pose proof (Rmin_r b' b'').
-    apply (Rplus_le_compat_r (fl (size a * margin))), fl_le in X1, X2.
-    apply (Rplus_le_compat_r (- fl (size a * margin))), fl_le in X3, X4.
-    unfold Rminus in *.
-    split; intros K; apply less_of in K;
-      (split; [apply G00 | split; [apply G01 | split; [apply G10 | apply G11]]]); lra. }
-  apply separated_sides in T. destruct T as [T | T].
-  - apply (edges_separated (along_axis a)); apply before_of; intros e; apply (Side e); apply T.
-  - apply (edges_separated (minus origin (along_axis a))); apply before_opposite, before_of;
-      intros e; apply (Side e); apply T.
+    set (b' := project a (difference_of (at_end b0 e) (at_end a0 e))) in *. set (b'' := fl (b' + _)) in *.
+    pose proof (between_extremes a' 0). pose proof (between_extremes b' b'').
+    destruct I as [<- | [<- | []]], J as [<- | [<- | []]];
+      [apply (sides_apart a M H e a0 _ _ 0 b') | apply (sides_apart a M H e a0 _ _ 0 b'') |
+       apply (sides_apart a M H e a0 _ _ a' b') | apply (sides_apart a M H e a0 _ _ a' b'')]; auto; lra. }
+  apply separated_sides in T. destruct T as [T | T];
+    [apply (edges_separated (along_axis a)) |
+     apply (edges_separated (minus origin (along_axis a))); apply before_opposite];
+    apply before_of; intros e;
+    (refine (proj1 (Sides _ _ e _ _) (T e)) || refine (proj2 (Sides _ _ e _ _) (T e))); simpl; auto.
 Qed.
 
 Theorem separated_edges_separate :

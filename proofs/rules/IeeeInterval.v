@@ -665,35 +665,27 @@ Proof.
 Qed.
 
 (** Division. *)
-Theorem remainder_known a b : finite (a ⊘ b) -> finite b -> B2R b <> 0 ->
-  snd (remainder_of_division _ F fused a b (a ⊘ b)) = true ->
-  finite (fst (remainder_of_division _ F fused a b (a ⊘ b))) /\
-  B2R (fst (remainder_of_division _ F fused a b (a ⊘ b))) = B2R a - B2R (a ⊘ b) * B2R b.
+(** The remainder a - v b, if it is exact over real numbers: nothing overflows. *)
+Lemma remainder_exact a v b : finite a -> finite v -> (B2R a = 0 -> B2R v = 0) ->
+  (forall e, fl (B2R v * B2R b) + e = B2R v * B2R b ->
+     ErrorFree.product_error_is_exact p emin (B2R v) (B2R b) (fl (B2R v * B2R b), e) -> B2R a <> 0 -> B2R v <> 0 ->
+     fl (fl (B2R a - fl (B2R v * B2R b)) - e) = B2R a - B2R v * B2R b /\
+     fl (B2R a - fl (B2R v * B2R b)) = B2R a - fl (B2R v * B2R b) /\
+     Rabs (B2R a - B2R v * B2R b) <= Rabs (B2R v * B2R b) / 2) ->
+  snd (remainder_of_division _ F fused a b v) = true ->
+  finite (fst (remainder_of_division _ F fused a b v)) /\
+  B2R (fst (remainder_of_division _ F fused a b v)) = B2R a - B2R v * B2R b.
 Proof.
-  intros FV FB NB. destruct zero_value' as [Z0 Z]. generalize (p_emax p emax). intros PE.
-  generalize FV. intros H. apply over_finite in H; auto. destruct H as [FA EV].
+  intros FA FV V0 Exact. destruct zero_value' as [Z0 Z].
   unfold remainder_of_division. cbv zeta. rewrite equal_finite, Z by auto.
   destruct (Req_bool_spec (B2R a) 0) as [A0 | A0]; cbn [fst snd].
-  { intros _. split; auto. rewrite EV, A0, Z. unfold Rdiv.
-    rewrite Rmult_0_l, (Format.rnd_0 p emin Format.nearest). ring. }
-  set (v := a ⊘ b) in *. intros C. apply andb_prop in C. destruct C as [CQ CP].
-  rewrite equal_finite, Z in CQ by auto.
+  { intros _. split; auto. rewrite V0, A0, Z by auto. ring. }
+  intros C. apply andb_prop in C. destruct C as [CQ CP]. rewrite equal_finite, Z in CQ by auto.
   destruct (Req_bool_spec (B2R v) 0) as [NQ | NQ]; [discriminate CQ |]. clear CQ.
   apply product_known in CP. rewrite product_value. destruct CP as (FP & FE & _ & _ & EX & D).
   set (e := snd (two_product _ F fused v b)) in *.
   assert (EP : B2R (v ⊗ b) = fl (B2R v * B2R b)) by now apply times_finite in FP.
-  assert (R : ErrorFree.remainder_of_division p emin (B2R a) (B2R (v ⊗ b), B2R e) = B2R a - B2R v * B2R b).
-  { rewrite EV. rewrite EV in EX, EP, D, NQ.
-    apply ErrorFree.remainder_of_division_exact; auto using number_B2R; lia. }
-  unfold ErrorFree.remainder_of_division in R. cbn [fst snd] in R.
-  destruct (Req_bool_spec (B2R a) 0) as [? | _]; [contradiction |].
-  assert (Q : Rabs (B2R a - B2R v * B2R b) <= Rabs (B2R v * B2R b) / 2).
-  { rewrite EV. rewrite EV in NQ. apply ErrorFree.quotient_error; auto. lia. }
-  rewrite EP in D.
-  destruct (ErrorFree.far_from_underflow p emin _ _ _ ltac:(lia) D) as [S | S]; [apply Rmult_integral in S; destruct S; contradiction |].
-  assert (ED : fl (B2R a - B2R (v ⊗ b)) = B2R a - B2R (v ⊗ b)).
-  { rewrite EP. apply ErrorFree.difference_is_number; auto using number_B2R; try lia.
-    apply Rle_trans with (2 := S). apply bpow_le. lia. }
+  rewrite EP in EX, D. destruct (Exact (B2R e) EX D A0 NQ) as (R & ED & Q). rewrite <- EP in R, ED.
   generalize U_M (le_M (v ⊗ b)). intros [PU LM] MP.
   assert (HP : Rabs (B2R (v ⊗ b) - B2R v * B2R b) <= U / 2).
   { rewrite EP. apply half_ulp_U. now rewrite <- EP. }
@@ -704,11 +696,31 @@ Proof.
   { apply minus_fits; auto.
     replace (B2R a - B2R (v ⊗ b)) with ((B2R a - B2R v * B2R b) + - (B2R (v ⊗ b) - B2R v * B2R b)) by ring.
     apply Rle_lt_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra. }
-  generalize FD. intros H. apply minus_finite in H. destruct H as (_ & _ & H). rewrite ED in H, R.
+  generalize FD. intros H. apply minus_finite in H. destruct H as (_ & _ & H). rewrite ED in H, R. rewrite <- EP in EX.
   assert (FR : finite (a ⊖ (v ⊗ b) ⊖ e)).
   { apply minus_fits; auto. rewrite H.
     replace (B2R a - B2R (v ⊗ b) - B2R e) with (B2R a - B2R v * B2R b) by lra. lra. }
   split; auto. apply minus_finite in FR. destruct FR as (_ & _ & ->). rewrite H. exact R.
+Qed.
+Theorem remainder_known a b : finite (a ⊘ b) -> finite b -> B2R b <> 0 ->
+  snd (remainder_of_division _ F fused a b (a ⊘ b)) = true ->
+  finite (fst (remainder_of_division _ F fused a b (a ⊘ b))) /\
+  B2R (fst (remainder_of_division _ F fused a b (a ⊘ b))) = B2R a - B2R (a ⊘ b) * B2R b.
+Proof.
+  intros FV FB NB. generalize (p_emax p emax). intros PE.
+  generalize FV. intros H. apply over_finite in H; auto. destruct H as [FA EV]. apply remainder_exact; auto.
+  { intros A0. rewrite EV, A0. unfold Rdiv. rewrite Rmult_0_l. exact (Format.rnd_0 p emin Format.nearest). }
+  intros e EX D A0 NQ. rewrite EV in *.
+  assert (R : ErrorFree.remainder_of_division p emin (B2R a) (fl (fl (B2R a / B2R b) * B2R b), e) =
+    B2R a - fl (B2R a / B2R b) * B2R b)
+    by (apply ErrorFree.remainder_of_division_exact; auto using number_B2R; lia).
+  unfold ErrorFree.remainder_of_division in R. cbn [fst snd] in R.
+  destruct (Req_bool_spec (B2R a) 0) as [? | _]; [contradiction |].
+  assert (Q : Rabs (B2R a - fl (B2R a / B2R b) * B2R b) <= Rabs (fl (B2R a / B2R b) * B2R b) / 2)
+    by (apply ErrorFree.quotient_error; auto; lia).
+  destruct (ErrorFree.far_from_underflow p emin _ _ _ ltac:(lia) D) as [S | S]; [apply Rmult_integral in S; destruct S; contradiction |].
+  split; [exact R |]. split; [| exact Q]. apply ErrorFree.difference_is_number; auto using number_B2R; try lia.
+  apply Rle_trans with (2 := S). apply bpow_le. lia.
 Qed.
 Lemma over_no_nan x y : finite x -> B2R y <> 0 -> no_nan (x ⊘ y).
 Proof.

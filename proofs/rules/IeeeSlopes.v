@@ -146,38 +146,15 @@ Theorem remainder_of_root_known x v : finite v -> v = root _ F x ->
   finite (fst (remainder_of_root _ F fused x v)) /\
   B2R (fst (remainder_of_root _ F fused x v)) = B2R x - B2R v * B2R v.
 Proof.
-  intros FV Rv. destruct (zero_value p emax p_3) as [Z0 Z]. assert (PE := p_emax p emax).
+  intros FV Rv. assert (PE := p_emax p emax).
   assert (H := FV). rewrite Rv in H. apply root_finite in H. destruct H as (FX & PX & EV). rewrite <- Rv in EV.
-  unfold remainder_of_root, remainder_of_division. cbv zeta. rewrite equal_finite, Z by auto.
-  destruct (Req_bool_spec (B2R x) 0) as [X0 | X0]; cbn [fst snd].
-  { intros _. split; auto. rewrite EV, X0, sqrt_0, (Format.rnd_0 p emin Format.nearest), Z. ring. }
-  intros C. apply andb_prop in C. destruct C as [CQ CP]. rewrite equal_finite, Z in CQ by auto.
-  destruct (Req_bool_spec (B2R v) 0) as [NV | NV]; [discriminate CQ |]. clear CQ.
-  apply (IeeeInterval.product_known p emax p_3 fused) in CP. rewrite (IeeeInterval.product_value p emax fused).
-  destruct CP as (FP & FE & _ & _ & EX & D).
-  set (e := snd (two_product _ F fused v v)) in *.
-  assert (EP : B2R (v ⊗ v) = fl (B2R v * B2R v)) by now apply times_finite in FP.
-  destruct (root_remainder_exact p emin p_3 (B2R x) (B2R (v ⊗ v), B2R e)) as (R & RD & Q);
+  apply (IeeeInterval.remainder_exact p emax p_3 fused); auto.
+  { intros X0. rewrite EV, X0, sqrt_0. exact (Format.rnd_0 p emin Format.nearest). }
+  intros e EX D X0 NV.
+  destruct (root_remainder_exact p emin p_3 (B2R x) (fl (B2R v * B2R v), e)) as (R & RD & Q);
     rewrite <- ?EV; cbn [fst snd]; auto using number_B2R; [lia |].
   rewrite <- EV in Q. rewrite <- EV in R. cbn [fst snd] in R, RD, Q.
-  destruct (IeeeInterval.U_M p emax p_3) as [PU LM].
-  assert (MP := IeeeInterval.le_M p emax (v ⊗ v)).
-  set (U := bpow radix2 (emax - p)) in *. set (M := bpow radix2 emax - U) in *.
-  assert (HP : Rabs (B2R (v ⊗ v) - B2R v * B2R v) <= U / 2).
-  { rewrite EP. apply (IeeeInterval.half_ulp_U p emax p_3). now rewrite <- EP. }
-  assert (LQ : Rabs (B2R v * B2R v) <= M + U / 2).
-  { replace (B2R v * B2R v) with (B2R (v ⊗ v) - (B2R (v ⊗ v) - B2R v * B2R v)) by ring.
-    apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra. }
-  assert (S : 0 <= B2R v * B2R v) by apply Rle_0_sqr. rewrite Rabs_pos_eq in LQ by exact S.
-  assert (FD : finite (x ⊖ (v ⊗ v))).
-  { apply (IeeeInterval.minus_fits p emax p_3); auto. fold U. fold M.
-    replace (B2R x - B2R (v ⊗ v)) with ((B2R x - B2R v * B2R v) + - (B2R (v ⊗ v) - B2R v * B2R v)) by ring.
-    apply Rle_lt_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra. }
-  assert (H := FD). apply minus_finite in H. destruct H as (_ & _ & H). rewrite RD in H.
-  assert (FR : finite (x ⊖ (v ⊗ v) ⊖ e)).
-  { apply (IeeeInterval.minus_fits p emax p_3); auto. rewrite H. fold U. fold M.
-    replace (B2R x - B2R (v ⊗ v) - B2R e) with (B2R x - B2R v * B2R v) by lra. lra. }
-  split; auto. apply minus_finite in FR. destruct FR as (_ & _ & ->). rewrite H, <- RD. exact R.
+  rewrite (Rabs_pos_eq (B2R v * B2R v)) by apply Rle_0_sqr. auto.
 Qed.
 
 (** For a rule that keeps its operations. *)

@@ -174,6 +174,42 @@ Proof.
   - right. apply Exists_cons_hd. unfold between. cbn [fst snd]. lra.
 Qed.
 
+(** Square of P - u B - w C. From (u, w) towards its least value, linear bounds hold until one becomes an equality. *)
+Definition apart (P B C : point) (u w : R) : R :=
+  dot (along (along P (- u) B) (- w) C) (along (along P (- u) B) (- w) C).
+Definition bound_at (u w : R) (f : R * R * R) : R := let '(c, a, b) := f in c + a * u + b * w.
+Lemma towards_least D B C P u w bounds : cross B C <> origin -> apart P B C u w <= D ->
+  Forall (fun f => 0 <= bound_at u w f) bounds ->
+  (exists h k, h * square_normal B C = weight_1 B C P /\ k * square_normal B C = weight_2 B C P /\
+     Forall (fun f => 0 <= bound_at h k f) bounds /\ det B C P * det B C P <= D * square_normal B C) \/
+  exists h k, Forall (fun f => 0 <= bound_at h k f) bounds /\ Exists (fun f => bound_at h k f = 0) bounds /\
+    apart P B C h k <= D.
+Proof.
+  intros N H F. destruct (in_basis B C P N) as (h & k & n & EP & Eh & Ek & En).
+  pose proof (square_positive _ N) as N2. fold (square_normal B C) in N2.
+  assert (Apart : forall u w, apart P B C u w = flat (h - u) (k - w) B C + n * n * square_normal B C).
+  { intros u' w'. unfold apart. rewrite EP. apply from_basis. }
+  rewrite Apart in H. pose proof (flat_nonnegative (h - u) (k - w) B C) as Flat.
+  destruct (leaving (map (fun f => (bound_at u w f, bound_at h k f)) bounds)) as (l & L & All & End);
+    [now apply Forall_map |].
+  assert (Move : forall f, between l (bound_at u w f, bound_at h k f) = bound_at (u + l * (h - u)) (w + l * (k - w)) f).
+  { intros ((c, a), b). unfold between, bound_at. cbn [fst snd]. ring. }
+  assert (All' : Forall (fun f => 0 <= bound_at (u + l * (h - u)) (w + l * (k - w)) f) bounds).
+  { rewrite Forall_forall in *. intros f I. rewrite <- Move. apply All, in_map_iff. now exists f. }
+  destruct End as [-> | End].
+  - left. exists h, k. replace (u + 1 * (h - u)) with h in All' by ring. replace (w + 1 * (k - w)) with k in All' by ring.
+    repeat split; auto. rewrite <- En.
+    assert (n * n * square_normal B C * square_normal B C <= D * square_normal B C)
+      by (apply Rmult_le_compat_r; lra). lra.
+  - right. exists (u + l * (h - u)), (w + l * (k - w)). split; [exact All' |]. split.
+    + apply Exists_exists in End. destruct End as (a & I & Z). apply in_map_iff in I. destruct I as (f & <- & I).
+      apply Exists_exists. exists f. rewrite <- Move. auto.
+    + rewrite Apart. replace (h - (u + l * (h - u))) with ((1 - l) * (h - u)) by ring.
+      replace (k - (w + l * (k - w))) with ((1 - l) * (k - w)) by ring. rewrite flat_scaled.
+      assert ((1 - l) * (1 - l) * flat (h - u) (k - w) B C <= 1 * flat (h - u) (k - w) B C)
+        by (apply Rmult_le_compat_r; nra). lra.
+Qed.
+
 Lemma face_well_formed v f0 f1 f2 : well_formed (face_condition v f0 f1 f2).
 Proof. intros (N & _). cbn [weight face_condition]. now apply square_positive. Qed.
 Lemma edges_well_formed a0 a1 b0 b1 : well_formed (edges_condition a0 a1 b0 b1).
@@ -202,41 +238,21 @@ Proof.
   { right. assert (T : in_triangle (along (along f0 u B) w C) f0 f1 f2) by (exists u, w; auto).
     apply face_at_a_time in T. destruct T as [(T & _) | T]; [easy |].
     destruct T as [T | [T | T]]; [left | right; left | right; right]; eexists; split; eauto. }
-  assert (Square : forall u w, let X := along (along P (- u) B) (- w) C in
-    dot (minus v (along (along f0 u B) w C)) (minus v (along (along f0 u B) w C)) = dot X X).
-  { intros u' w' X. unfold X, P. clearbody B C. coordinates. ring. }
-  destruct (in_basis B C P N) as (h & k & n & EP & Eh & Ek & En).
-  pose proof (square_positive _ N) as N2. fold (square_normal B C) in N2.
-  assert (Apart : forall u w, dot (minus v (along (along f0 u B) w C)) (minus v (along (along f0 u B) w C)) =
-    flat (h - u) (k - w) B C + n * n * square_normal B C).
-  { intros u' w'. rewrite Square. rewrite EP. apply from_basis. }
-  unfold near in H. rewrite Apart in H.
-  destruct (leaving [(u, h); (w, k); (1 - u - w, 1 - h - k)]) as (l & L & All & End).
-  { repeat (apply Forall_cons; [cbn [fst]; lra |]). apply Forall_nil. }
-  inversion_clear All as [| ? ? Au All']. inversion_clear All' as [| ? ? Aw All]. inversion_clear All as [| ? ? A0 _].
-  unfold between in Au, Aw, A0. cbn [fst snd] in Au, Aw, A0.
-  destruct End as [-> | End].
-  - left. split.
-    + cbn [sides face_condition]. fold B C P. unfold weight_0. fold (square_normal B C). rewrite <- Eh, <- Ek.
-      split; auto. assert (0 <= h /\ 0 <= k /\ 0 <= 1 - h - k) as (I & J & K) by lra.
-      repeat split; try (apply Rmult_le_pos; lra).
-      replace (square_normal B C - h * square_normal B C - k * square_normal B C)
-        with ((1 - h - k) * square_normal B C) by ring. apply Rmult_le_pos; lra.
-    + unfold excess. cbn [top weight face_condition]. fold B C P. rewrite <- En.
-      pose proof (flat_nonnegative (h - u) (k - w) B C).
-      assert (n * n * square_normal B C * square_normal B C <= D * square_normal B C)
-        by (apply Rmult_le_compat_r; lra). lra.
-  - right. apply border_point with (u + l * (h - u)) (w + l * (k - w)); try lra.
-    + inversion_clear End as [? ? E | ? ? End']; [left; exact E |].
-      inversion_clear End' as [? ? E | ? ? End]; [right; left; exact E |].
-      inversion_clear End as [? ? E | ? ? End']; [| inversion End'].
-      right; right. unfold between in E. cbn [fst snd] in E. lra.
-    + unfold near. fold B C. rewrite Apart.
-      replace (h - (u + l * (h - u))) with ((1 - l) * (h - u)) by ring.
-      replace (k - (w + l * (k - w))) with ((1 - l) * (k - w)) by ring. rewrite flat_scaled.
-      pose proof (flat_nonnegative (h - u) (k - w) B C).
-      assert ((1 - l) * (1 - l) * flat (h - u) (k - w) B C <= 1 * flat (h - u) (k - w) B C)
-        by (apply Rmult_le_compat_r; nra). lra.
+  assert (Square : forall u w, dot (minus v (along (along f0 u B) w C)) (minus v (along (along f0 u B) w C)) =
+    apart P B C u w) by (intros u' w'; unfold apart, P; clearbody B C; coordinates; ring).
+  unfold near in H. rewrite Square in H.
+  destruct (towards_least D B C P u w [(0, 1, 0); (0, 0, 1); (1, -1, -1)] N H) as
+    [(h & k & Eh & Ek & F & Y) | (h & k & F & Zero & A)];
+    [repeat apply Forall_cons; try apply Forall_nil; cbn [bound_at]; lra | |];
+    rewrite !Forall_cons_iff in F; cbn [bound_at] in F.
+  - left. split; [| unfold excess; cbn [top weight face_condition]; fold B C P; lra].
+    cbn [sides face_condition]. fold B C P. unfold weight_0. fold (square_normal B C). rewrite <- Eh, <- Ek.
+    split; auto. apply square_positive in N. fold (square_normal B C) in N.
+    assert (0 <= h * square_normal B C /\ 0 <= k * square_normal B C /\ 0 <= (1 - h - k) * square_normal B C)
+      by (repeat split; apply Rmult_le_pos; lra). lra.
+  - right. apply border_point with h k; try lra; [| unfold near; fold B C; now rewrite Square].
+    rewrite !Exists_cons, Exists_nil in Zero. cbn [bound_at] in Zero.
+    destruct Zero as [Z | [Z | [Z | []]]]; [left | right; left | right; right]; lra.
 Qed.
 Lemma face_sound D v f0 f1 f2 : holds D (face_condition v f0 f1 f2) -> face_near D v f0 f1 f2.
 Proof.
@@ -331,41 +347,22 @@ Lemma edges_complete D a0 a1 b0 b1 : edges_near D a0 a1 b0 b1 ->
 Proof.
   intros H. destruct (origin_dec (cross (minus a1 a0) (minus b1 b0))) as [O | N];
     [right; now apply parallel_near |].
-  destruct H as (p & q & (s & S & ->) & (t & T & ->) & H). unfold near in H.
-  destruct (in_basis _ _ (minus b0 a0) N) as (h & k & n & EP & Eh & Ek & En).
-  pose proof (square_positive _ N) as N2. fold (square_normal (minus a1 a0) (minus b1 b0)) in N2.
-  assert (Apart : forall s t, dot (minus (along a0 s (minus a1 a0)) (along b0 t (minus b1 b0)))
-      (minus (along a0 s (minus a1 a0)) (along b0 t (minus b1 b0))) =
-    flat (h - s) (k - - t) (minus a1 a0) (minus b1 b0) + n * n * square_normal (minus a1 a0) (minus b1 b0)).
-  { intros s' t'. rewrite between_edges. rewrite EP. apply from_basis. }
-  rewrite Apart in H.
-  destruct (leaving [(s, h); (1 - s, 1 - h); (t, - k); (1 - t, 1 - - k)]) as (l & L & All & End).
-  { repeat (apply Forall_cons; [cbn [fst]; lra |]). apply Forall_nil. }
-  rewrite Forall_forall in All.
-  pose proof (All _ (or_introl eq_refl)) as A0. pose proof (All _ (or_intror (or_introl eq_refl))) as A1.
-  pose proof (All _ (or_intror (or_intror (or_introl eq_refl)))) as A2.
-  pose proof (All _ (or_intror (or_intror (or_intror (or_introl eq_refl))))) as A3. clear All.
-  unfold between in A0, A1, A2, A3. cbn [fst snd] in A0, A1, A2, A3.
-  set (n2 := square_normal (minus a1 a0) (minus b1 b0)) in *.
-  pose proof (flat_nonnegative (h - s) (k - - t) (minus a1 a0) (minus b1 b0)) as F.
-  destruct End as [-> | End].
-  - left. split.
-    + cbn [sides edges_condition]. split; auto.
-      replace (on_b _ _ _) with (- weight_2 (minus a1 a0) (minus b1 b0) (minus b0 a0))
-        by (unfold on_b, weight_2, dot, cross; simpl; ring).
-      unfold on_a. fold (weight_1 (minus a1 a0) (minus b1 b0) (minus b0 a0)). rewrite <- Eh, <- Ek. fold n2.
-      assert (0 <= h * n2 /\ 0 <= (1 - h) * n2 /\ 0 <= - k * n2 /\ 0 <= (1 + k) * n2)
-        by (repeat split; apply Rmult_le_pos; lra). lra.
-    + unfold excess. cbn [top weight edges_condition]. rewrite <- En. fold n2.
-      assert (n * n * n2 * n2 <= D * n2) by (apply Rmult_le_compat_r; lra). lra.
-  - right. apply edges_border_point with (s + l * (h - s)) (t + l * (- k - t)); try lra.
-    + rewrite !Exists_cons, Exists_nil in End. unfold between in End. cbn [fst snd] in End.
-      destruct End as [E | [E | [E | [E | []]]]]; [left | right; left | right; right; left | right; right; right]; lra.
-    + unfold near. rewrite Apart.
-      replace (h - (s + l * (h - s))) with ((1 - l) * (h - s)) by ring.
-      replace (k - - (t + l * (- k - t))) with ((1 - l) * (k - - t)) by ring. rewrite flat_scaled.
-      assert ((1 - l) * (1 - l) * flat (h - s) (k - - t) (minus a1 a0) (minus b1 b0) <=
-        1 * flat (h - s) (k - - t) (minus a1 a0) (minus b1 b0)) by (apply Rmult_le_compat_r; nra). lra.
+  destruct H as (p & q & (s & S & ->) & (t & T & ->) & H). unfold near in H. rewrite between_edges in H.
+  set (B := minus a1 a0) in *. set (C := minus b1 b0) in *. set (P := minus b0 a0) in *.
+  destruct (towards_least D B C P s (- t) [(0, 1, 0); (1, -1, 0); (0, 0, -1); (1, 0, 1)] N H) as
+    [(h & k & Eh & Ek & F & Y) | (h & k & F & Zero & A)];
+    [repeat apply Forall_cons; try apply Forall_nil; cbn [bound_at]; lra | |];
+    rewrite !Forall_cons_iff in F; cbn [bound_at] in F.
+  - left. split; [| unfold excess; cbn [top weight edges_condition]; fold B C P; lra].
+    cbn [sides edges_condition]. fold B C P. split; auto. apply square_positive in N. fold (square_normal B C) in N.
+    replace (on_b B C P) with (- weight_2 B C P) by (unfold on_b, weight_2, dot, cross; simpl; ring).
+    unfold on_a. fold (weight_1 B C P). rewrite <- Eh, <- Ek. set (n2 := square_normal B C) in *.
+    assert (0 <= h * n2 /\ 0 <= (1 - h) * n2 /\ 0 <= - k * n2 /\ 0 <= (1 + k) * n2)
+      by (repeat split; apply Rmult_le_pos; lra). lra.
+  - right. apply edges_border_point with h (- k); try lra.
+    + rewrite !Exists_cons, Exists_nil in Zero. cbn [bound_at] in Zero.
+      destruct Zero as [Z | [Z | [Z | [Z | []]]]]; [left | right; left | right; right; left | right; right; right]; lra.
+    + unfold near. rewrite between_edges. fold B C P. now rewrite Ropp_involutive.
 Qed.
 Lemma edges_sound D a0 a1 b0 b1 : holds D (edges_condition a0 a1 b0 b1) -> edges_near D a0 a1 b0 b1.
 Proof.

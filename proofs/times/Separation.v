@@ -364,24 +364,23 @@ Proof.
     pose proof (Rmult_le_compat_r (norm n) (norm w) d N Q). lra. }
   nra.
 Qed.
-Lemma mixed r u a b : 0 <= u <= 1 -> r < a -> r < b -> r < (1 - u) * a + u * b.
-Proof.
-  intros U A B. pose proof (Rmin_glb_lt a b r A B). pose proof (Rmin_l a b). pose proof (Rmin_r a b).
-  assert (0 <= (1 - u) * (a - Rmin a b)) by (apply Rmult_le_pos; lra).
-  assert (0 <= u * (b - Rmin a b)) by (apply Rmult_le_pos; lra). lra.
-Qed.
 Lemma above_place n d ps qs p q t : above_along n d ps qs -> In p ps -> In q qs -> 0 <= t <= 1 ->
   d * norm n < dot n (minus (place p t) (place q t)).
 Proof.
-  intros H P Q T. destruct (H p q P Q) as (S & F).
-  replace (dot n (minus (place p t) (place q t))) with ((1 - t) * dot n (minus (start p) (start q)) +
-    t * dot n (minus (finish p) (finish q))) by (unfold place; coordinates; ring). now apply mixed.
+  intros H P Q T. destruct (H p q P Q) as (S & F). apply segment_beyond with (2 := S) (3 := F).
+  exists t. split; auto. unfold place. vector.
 Qed.
-Lemma above_between n r p q0 q1 u : 0 <= u <= 1 -> r < dot n (minus p q0) -> r < dot n (minus p q1) ->
-  r < dot n (minus p (along q0 u (minus q1 q0))).
+Lemma above_triangle n r p q a b c : in_triangle q a b c -> r < dot n (minus p a) -> r < dot n (minus p b) ->
+  r < dot n (minus p c) -> r < dot n (minus p q).
 Proof.
-  intros U A B. replace (dot n (minus p (along q0 u (minus q1 q0))))
-    with ((1 - u) * dot n (minus p q0) + u * dot n (minus p q1)) by (coordinates; ring). now apply mixed.
+  rewrite !dot_minus. intros Q A B C. pose proof (triangle_beyond (along origin (-1) n) (r - dot n p) q a b c Q) as H.
+  rewrite !dot_opposite in H. lra.
+Qed.
+Lemma above_segment n r p q a b : in_segment q a b -> r < dot n (minus p a) -> r < dot n (minus p b) ->
+  r < dot n (minus p q).
+Proof.
+  rewrite !dot_minus. intros Q A B. pose proof (segment_beyond (along origin (-1) n) (r - dot n p) q a b Q) as H.
+  rewrite !dot_opposite in H. lra.
 Qed.
 Lemma either_way n d ps qs : above_along n d ps qs \/ above_along n d qs ps -> exists m, above_along m d ps qs.
 Proof.
@@ -401,49 +400,31 @@ Theorem vertex_edge_apart n d v e0 e1 t : 0 <= d -> 0 <= t <= 1 ->
   above_along n d [v] [e0; e1] \/ above_along n d [e0; e1] [v] ->
   ~ vertex_edge_near (d * d) (place v t) (place e0 t) (place e1 t).
 Proof.
-  intros D0 T A (q & (u & U & ->) & N). apply either_way in A. destruct A as (m & H).
-  assert (F : d * norm m < dot m (minus (place v t) (along (place e0 t) u (minus (place e1 t) (place e0 t))))).
-  { apply above_between; auto; eapply above_place; try eassumption; simpl; auto. }
+  intros D0 T A (q & Q & N). apply either_way in A. destruct A as (m & H).
+  assert (F : d * norm m < dot m (minus (place v t) q))
+    by (apply above_segment with (1 := Q); eapply above_place; try eassumption; simpl; auto).
   apply far_along in F; auto. unfold near in N. lra.
 Qed.
 Theorem face_apart n d v f0 f1 f2 t : 0 <= d -> 0 <= t <= 1 ->
   above_along n d [v] [f0; f1; f2] \/ above_along n d [f0; f1; f2] [v] ->
   ~ face_near (d * d) (place v t) (place f0 t) (place f1 t) (place f2 t).
 Proof.
-  intros D0 T A (q & (u & w & U & W & S & ->) & N). apply either_way in A. destruct A as (m & H).
-  assert (In : forall f, In f [f0; f1; f2] -> d * norm m < dot m (minus (place v t) (place f t)))
-    by (intros f I; eapply above_place; try eassumption; simpl; auto).
-  pose proof (In f0 (or_introl eq_refl)) as A0. pose proof (In f1 (or_intror (or_introl eq_refl))) as A1.
-  pose proof (In f2 (or_intror (or_intror (or_introl eq_refl)))) as A2. set (r := d * norm m) in *.
-  assert (F : r < dot m (minus (place v t) (along (along (place f0 t) u (minus (place f1 t) (place f0 t))) w
-    (minus (place f2 t) (place f0 t))))).
-  { replace (dot m _) with ((1 - u - w) * dot m (minus (place v t) (place f0 t)) + u * dot m (minus (place v t)
-      (place f1 t)) + w * dot m (minus (place v t) (place f2 t))) by (coordinates; ring).
-    clearbody r. set (x0 := dot m (minus (place v t) (place f0 t))) in *.
-    set (x1 := dot m (minus (place v t) (place f1 t))) in *. set (x2 := dot m (minus (place v t) (place f2 t))) in *.
-    clearbody x0 x1 x2. set (e := Rmin x0 (Rmin x1 x2)).
-    pose proof (Rmin_l x0 (Rmin x1 x2)). pose proof (Rmin_r x0 (Rmin x1 x2)). pose proof (Rmin_l x1 x2).
-    pose proof (Rmin_r x1 x2). fold e in H0, H1. assert (r < e) by (unfold e; repeat apply Rmin_glb_lt; auto).
-    assert (0 <= (1 - u - w) * (x0 - e)) by (apply Rmult_le_pos; lra).
-    assert (0 <= u * (x1 - e)) by (apply Rmult_le_pos; lra).
-    assert (0 <= w * (x2 - e)) by (apply Rmult_le_pos; lra). lra. }
+  intros D0 T A (q & Q & N). apply either_way in A. destruct A as (m & H).
+  assert (F : d * norm m < dot m (minus (place v t) q))
+    by (apply above_triangle with (1 := Q); eapply above_place; try eassumption; simpl; auto).
   apply far_along in F; auto. unfold near in N. lra.
 Qed.
 Theorem edges_apart n d a0 a1 b0 b1 t : 0 <= d -> 0 <= t <= 1 ->
   above_along n d [a0; a1] [b0; b1] \/ above_along n d [b0; b1] [a0; a1] ->
   ~ edges_near (d * d) (place a0 t) (place a1 t) (place b0 t) (place b1 t).
 Proof.
-  intros D0 T A (p & q & (s & S & ->) & (r & R0 & ->) & N).
-  apply either_way in A. destruct A as (m & H).
-  assert (Of : forall a, In a [a0; a1] ->
-    d * norm m < dot m (minus (place a t) (along (place b0 t) r (minus (place b1 t) (place b0 t))))).
-  { intros a I. apply above_between; auto; eapply above_place; try eassumption; simpl; auto. }
-  pose proof (Of a0 (or_introl eq_refl)) as A0. pose proof (Of a1 (or_intror (or_introl eq_refl))) as A1.
-  set (q := along (place b0 t) r (minus (place b1 t) (place b0 t))) in *.
-  assert (F : d * norm m < dot m (minus (along (place a0 t) s (minus (place a1 t) (place a0 t))) q)).
-  { replace (dot m _) with ((1 - s) * dot m (minus (place a0 t) q) + s * dot m (minus (place a1 t) q))
-      by (coordinates; ring). now apply mixed. }
-  apply far_along in F; auto. unfold near in N. lra.
+  intros D0 T A (p & q & P & Q & N). apply either_way in A. destruct A as (m & H).
+  assert (Far : forall a, In a [a0; a1] -> d * norm m + dot m q < dot m (place a t)).
+  { intros a I. enough (d * norm m < dot m (minus (place a t) q)) by (rewrite dot_minus in *; lra).
+    apply above_segment with (1 := Q); eapply above_place; try eassumption; simpl; auto. }
+  assert (F : d * norm m + dot m q < dot m p) by (apply segment_beyond with (1 := P); apply Far; simpl; auto).
+  assert (F' : d * norm m < dot m (minus p q)) by (rewrite dot_minus; lra).
+  apply far_along in F'; auto. unfold near in N. lra.
 Qed.
 
 (** ** Coordinates: separated_by_coordinates of ccd/contact/separation.cpp *)
