@@ -9,8 +9,8 @@ import subprocess
 import sys
 
 # Functions of ISO C and of POSIX.1-2008.
-C = """abort acos asin atan atan2 acosh asinh atanh calloc cbrt cos cosh exp exp2 expm1 fclose fflush fma
-fmax fmin fmod fopen fprintf fputc fputs frexp free fwrite getenv gmtime hypot ilogb isalnum isalpha
+C = """abort acos asin atan atan2 acosh asinh atanh calloc cbrt ceil cos cosh exp exp2 expm1 fclose fflush floor
+floorf floorl fma fmax fmin fmod fopen fprintf fputc fputs frexp free fwrite getenv gmtime hypot ilogb isalnum isalpha
 isspace ldexp llrint llround localeconv log log10 log1p log2 logb lrint lround malloc memchr memcmp
 memcpy memmove memset modf nearbyint nextafter pow printf putc putchar puts raise realloc remainder
 rename rint round scalbn setlocale signal sin sinh snprintf sqrt stderr stdin stdout strchr strcmp
@@ -21,7 +21,7 @@ mkstemp mmap munmap nanosleep open pread pthread_cond_broadcast pthread_cond_sig
 pthread_cond_wait pthread_create pthread_join pthread_mutex_lock pthread_mutex_unlock pthread_once
 pthread_self realpath sched_yield shmdt sigaction stat sysconf unlink waitpid write _exit""".split()
 # Functions of neither that macOS and BSDs also have.
-BSD = ["flock", "getloadavg"]
+BSD = ["bcmp", "flock", "getloadavg"]
 # Functions of glibc that are used only if they exist (include/errbound/validation/expression.hpp).
 GLIBC = ["fmaf128", "sqrtf128"]
 # Functions that the compiler (sincos for sin and cos) and the C++ library (timed waits, where glibc has it) use.

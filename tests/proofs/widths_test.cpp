@@ -74,7 +74,7 @@ struct opened_contact : ccd::detail::interior_contact<Words, Forms> {
 
 /// Around the root of all forms, in T words and with brackets of any width.
 template <int T, class Contact>
-void ask_throughout(const Contact& contact, const tie::drawn_forms& f) {
+void run_throughout(const Contact& contact, const tie::drawn_forms& f) {
     const int bits = std::clamp(64 * T - 4 - f.bits(0) + f.cut, 1, 64 * T - 2);
     const auto place = f.place(bits).from_bit<T>(0).plain();
     const counting now;
@@ -108,10 +108,10 @@ void decide_forms(const tie::drawn_forms& f, int bits) {
     contact.three_real_roots_ = true;
     (void)contact.without_halving(some);
     now.reset();
-    ask_throughout<1>(contact, f);
-    ask_throughout<2>(contact, f);
-    ask_throughout<3>(contact, f);
-    ask_throughout<4>(contact, f);
+    run_throughout<1>(contact, f);
+    run_throughout<2>(contact, f);
+    run_throughout<3>(contact, f);
+    run_throughout<4>(contact, f);
 }
 
 template <int Words>
