@@ -75,7 +75,9 @@ nlohmann::ordered_json bracket_of(const first_time& time) {
 class bodies final : public command {
   public:
     explicit bodies(CLI::App& program)
-        : command(program, "bodies", "Find the contacts of bodies that move and turn") {
+        : command(program, "bodies",
+                  "Find the contacts of bodies that move and turn. Two bodies whose poses do not "
+                  "change in a step\nare not tested in it") {
         add(line_, "SCENE", path_, "JSON with the bodies' meshes and poses").required();
         add_range_options(line_, first_, count_,
                           "Skip the first N steps; step N is from frame N to N + 1",
